@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "nscdd/communicator.h"
+#include "nscdd/options.h"
+#include "nscdd/platform_adapter.h"
+#include "nscdd/report.h"
+
+namespace nscdd {
+
+/// A body of this rank after the last step.
+struct BodyRecord {
+  std::int64_t id;
+  BodyKind kind;
+  double radius;     ///< [m]
+  Pose pose;         ///< end of the step
+  Twist velocity;    ///< end of the step
+  int multiplicity;  ///< subdomains that hold a contact of it; 0: none
+  int subdomain;     ///< home cell of its centre
+};
+
+/// A candidate contact that this rank solved in the last step.
+struct ContactRecord {
+  ContactKey key;
+  double gap;              ///< [m] at the detection configuration
+  double final_gap;        ///< [m] at the end of the step
+  Vec2 normal;
+  Vec2 point;              ///< [m] where the impulse acts, at the detection configuration
+  Vec2 impulse;            ///< (r_n, r_t) [N s]
+  Vec2 relative_velocity;  ///< (v_n, v_t) [m/s] at the end of the step
+  int status;              ///< 0 open, 1 sticking, 2 sliding
+  int subdomain;
+};
+
+/// The whole time step of Moreau and Jean, over the ranks of `communicator`:
+///     q_m = q_i + (1 - theta) dt V_i,  contacts at q_m,  V_f = V_i + dt M^-1 f,
+///     V = V_f + M^-1 H r with v = H^T V in the contact law,  q_{i+1} = q_m + theta dt V.
+/// Each rank has its own adapter, holding the bodies of its subdomains and ghosts; bodies migrate by the adapter's transport().
+/// Before the first step every body is in exactly one rank's host.
+/// Reports and results are bitwise the same on any number of ranks. Not for concurrent use of one instance.
+class TimeStepper {
+ public:
+  /// Keeps references to both. Throws Error, on all ranks, on impossible options, on more ranks than subdomains and when
+  /// several ranks meet an adapter without transport.
+  TimeStepper(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter,
+              Communicator* communicator);
+  ~TimeStepper();
+  TimeStepper(TimeStepper&&) noexcept;
+
+  /// One step of `dt` [s] > 0. Collective. Throws the same Error on all ranks when an adapter fails or breaks its contract; the
+  /// hosts' poses and velocities are then unchanged.
+  const StepReport& Step(double dt);
+
+  /// Of the last step, this rank's part: bodies by id, contacts by (subdomain, key). Valid until the next Step().
+  std::span<const BodyRecord> bodies() const;
+  std::span<const ContactRecord> contacts() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nscdd
