@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,6 +55,11 @@ class TimeStepper {
   /// One step of `dt` [s] > 0. Collective. Throws the same Error on all ranks when an adapter fails or breaks its contract; the
   /// hosts' poses and velocities are then unchanged.
   const StepReport& Step(double dt);
+
+  /// What a continuation needs beside the hosts' bodies, this rank's part: step and time counters, cuts of the grid, impulses by
+  /// key, interface impulses by (body, subdomain). LoadState() replaces them; throws Error if the bytes are not those of SaveState().
+  std::vector<std::byte> SaveState() const;
+  void LoadState(std::span<const std::byte> bytes);
 
   /// Of the last step, this rank's part: bodies by id, contacts by (subdomain, key). Valid until the next Step().
   std::span<const BodyRecord> bodies() const;
