@@ -1,0 +1,206 @@
+#include "algorithms/monitor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "nlgs/local_solve.h"
+#include "parallel/ordered_reduction.h"
+
+namespace nscdd {
+namespace {
+
+const char* Name(Criterion criterion) {
+  constexpr std::array<const char*, 5> kNames{"nat", "nat_max", "quad", "maxm", "qm16"};
+  return kNames[static_cast<std::size_t>(criterion)];
+}
+
+bool SeesTheInterface(Criterion criterion) { return criterion == Criterion::kNat || criterion == Criterion::kNatMax; }
+
+template <class Row>
+void DescribeRows(const PartitionedProblem& problem, SolveReport* report) {
+  report->unknowns_per_contact = Unknowns(Row::kModel);
+  report->unknowns_per_body = Dofs(Row::kModel);
+  report->bytes_per_contact = static_cast<int>(sizeof(Row) + Unknowns(Row::kModel) * sizeof(double));
+  report->bytes_per_body = static_cast<int>((Dofs(Row::kModel) + Inertias(Row::kModel)) * sizeof(double));
+  report->contacts = problem.contact_count;
+}
+
+void Describe(const PartitionedProblem& problem, SolveReport* report) {
+  SubdomainProblem probe;
+  probe.model = problem.model;
+  VisitRows(probe, [&](const auto& rows) {
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    DescribeRows<Row>(problem, report);
+  });
+}
+
+}  // namespace
+
+Monitor::Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator)
+    : problem_(problem), options_(options), communicator_(communicator) {
+  Describe(problem, &report_);
+}
+
+void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
+                         const PartitionedState& state) {
+  using Part = ReductionPart<9, 3>;
+  std::vector<Part> parts(problem_.subdomains.size());
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
+    const SweepStatistics& s = statistics[e];
+    const JumpPart jump = jumps.empty() ? JumpPart{} : jumps[e];
+    parts[e] = {n.sum_e2,   n.sum_r2,         static_cast<double>(s.active), s.sum_dv2, s.sum_dv2_r2, s.sum_rwr, s.sum_wr2,
+                jump.sum_squares, jump.copies, n.worst, s.max_dv, s.max_dv_r};
+  }
+  const Part t = ReduceInOrder<9, 3>(parts, communicator_);
+  SweepStatistics total;
+  total.active = static_cast<std::int64_t>(t[2]);
+  total.sum_dv2 = t[3];
+  total.sum_dv2_r2 = t[4];
+  total.sum_rwr = t[5];
+  total.sum_wr2 = t[6];
+  total.max_dv = t[10];
+  total.max_dv_r = t[11];
+  const StagnationMeasures stagnation = Stagnation(total, problem_.scales);
+  Residuals& r = report_.residuals;
+  r.nat = Nat(t[0], t[1], problem_.scales);
+  r.nat_max = NatMax(t[9], problem_.scales);
+  r.quad = stagnation.quad;
+  r.maxm = stagnation.maxm;
+  r.qm16 = stagnation.qm16;
+  r.interface_jump = t[8] > 0.0 ? std::sqrt(t[7] / t[8]) : 0.0;
+  r.relative_jump = r.interface_jump == 0.0 ? 0.0 : stagnation.quad_wr > 0.0 ? r.interface_jump / stagnation.quad_wr : INFINITY;
+}
+
+void Monitor::Stop(SolveStatus status, std::string reason) {
+  report_.status = status;
+  report_.reason = std::move(reason);
+}
+
+bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
+                    const PartitionedState& state) {
+  MeasureAll(statistics, jumps, state);
+  const Residuals& r = report_.residuals;
+  report_.history.push_back({iteration, r.nat, r.nat_max, r.qm16, r.interface_jump});
+  double measure = Measure(options_.criterion, r);
+  if (!SeesTheInterface(options_.criterion)) measure = std::max(measure, r.relative_jump == INFINITY ? 0.0 : r.relative_jump);
+  const char* name = Name(options_.criterion);
+  if (first_ < 0.0) first_ = best_ = measure;
+
+  if (!std::isfinite(r.nat) || !std::isfinite(r.nat_max) || (measure > 1.0 && measure > 1e6 * first_)) {
+    Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g} after {:.3g} at the first test", name, measure, first_));
+    return true;
+  }
+  if (measure <= options_.tolerance) {
+    Stop(SolveStatus::kConverged, fmt::format("{} is below the tolerance {:.3g}", name, options_.tolerance));
+    return true;
+  }
+  if (measure < best_) {
+    best_ = measure;
+    best_iteration_ = iteration;
+  }
+  if (iteration >= options_.max_iterations) {
+    Stop(SolveStatus::kIterationLimit,
+         fmt::format("{} is {:.3g} after {} iterations, tolerance {:.3g}", name, measure, iteration, options_.tolerance));
+    return true;
+  }
+  if (iteration - best_iteration_ >= options_.stall_iterations) {
+    Stop(SolveStatus::kStalled,
+         fmt::format("{} has not fallen below {:.3g} for {} iterations", name, best_, iteration - best_iteration_));
+    return true;
+  }
+  return false;
+}
+
+void Monitor::CountContacts(const PartitionedState& state) {
+  // sums: active, sticking, Painleve, empty subdomains, interface bodies (counted by their lowest subdomain), copies
+  std::vector<ReductionPart<6, 1>> parts(problem_.subdomains.size());
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    const SubdomainProblem& p = problem_.subdomains[e];
+    auto& part = parts[e];
+    part = {};
+    part[3] = p.contact_count() == 0;
+    VisitRows(p, [&](const auto& rows) {
+      using Row = typename std::decay_t<decltype(rows)>::value_type;
+      constexpr int kUnknowns = Unknowns(Row::kModel);
+      const double* r = state.subdomains[e].impulse.data();
+      for (const Row& c : rows) {
+        part[0] += r[0] > 0.0;
+        if constexpr (HasFriction(Row::kModel)) part[1] += r[0] > 0.0 && std::abs(r[1]) < c.friction * r[0];
+        if constexpr (Row::kModel == ContactModel::kFrictionArms) part[2] += IsPainleve(c);
+        r += kUnknowns;
+      }
+    });
+  }
+  const InterfaceMap& map = problem_.interface;
+  std::size_t body = 0;
+  for (const auto& copy : map.copies) {
+    while (copy.slot >= map.slot_begin[body + 1]) ++body;
+    auto& part = parts[copy.problem];
+    part[4] += copy.slot == map.slot_begin[body];
+    part[5] += 1.0;
+    part[6] = std::max(part[6], static_cast<double>(map.slot_begin[body + 1] - map.slot_begin[body]));
+  }
+  const auto t = ReduceInOrder<6, 1>(parts, communicator_);
+  report_.active = static_cast<std::int64_t>(t[0]);
+  report_.sticking = static_cast<std::int64_t>(t[1]);
+  report_.painleve_contacts = static_cast<int>(t[2]);
+  report_.empty_subdomains = static_cast<std::int64_t>(t[3]);
+  report_.interface_bodies = static_cast<std::int64_t>(t[4]);
+  report_.interface_copies = static_cast<std::int64_t>(t[5]);
+  report_.max_multiplicity = report_.contacts == 0 ? 0 : std::max(1, static_cast<int>(t[6]));
+}
+
+/// Names the contact with the largest nat_max; of equal ones that of the lowest subdomain.
+void Monitor::FindWorst(const PartitionedState& state) {
+  NaturalParts worst;
+  for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
+    const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
+    if (n.worst_contact >= 0 && !(n.worst <= worst.worst)) worst = n;
+  }
+  std::array<double, 6> mine{-1.0, 0, 0, 0, 0, 0};
+  if (worst.worst_contact >= 0) {
+    const ContactTable& t = *problem_.contacts;
+    const auto c = static_cast<std::size_t>(worst.worst_contact);
+    const auto id = [&](std::int32_t row) { return static_cast<double>((*problem_.body_id)[row]); };
+    const auto shape = [&](const std::vector<std::int32_t>& column) { return column.empty() ? 0.0 : double(column[c]); };
+    mine = {worst.worst, id(t.a[c]), id(t.b[c]), shape(t.shape_a), shape(t.shape_b), shape(t.image)};
+  }
+  const std::vector<double> all = communicator_->AllGather(mine);
+  const double* best = all.data();
+  for (std::size_t i = 6; i < all.size(); i += 6) {
+    if (all[i] > best[0]) best = &all[i];
+  }
+  if (best[0] < 0.0) return;
+  report_.residuals.worst = {static_cast<std::int64_t>(best[1]), static_cast<std::int64_t>(best[2]),
+                             static_cast<std::int32_t>(best[3]), static_cast<std::int32_t>(best[4]),
+                             static_cast<std::int32_t>(best[5])};
+}
+
+SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedState* state) {
+  report_.iterations = iterations;
+  report_.sweeps = sweeps;
+  FindWorst(*state);
+  if (report_.status == SolveStatus::kDiverged) {
+    for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
+      std::fill(state->subdomains[e].impulse.begin(), state->subdomains[e].impulse.end(), 0.0);
+      state->subdomains[e].velocity = problem_.subdomains[e].free_velocity;
+    }
+    std::fill(state->interface.impulse.begin(), state->interface.impulse.end(), 0.0);
+  }
+  CountContacts(*state);
+  return std::move(report_);
+}
+
+SolveReport ReportWithoutContacts(const PartitionedProblem& problem) {
+  SolveReport report;
+  report.reason = "no contact";
+  Describe(problem, &report);
+  return report;
+}
+
+}  // namespace nscdd

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "nscdd/communicator.h"
+#include "nscdd/options.h"
+#include "nscdd/report.h"
+#include "problem/partitioned_problem.h"
+
+namespace nscdd {
+
+/// Watches an iteration: measures it every test_every iterations and decides when it stops. All ranks decide the same.
+class Monitor {
+ public:
+  Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator);
+
+  /// Whether this iteration is tested (then sweep it with statistics).
+  bool IsDue(int iteration) const { return iteration % options_.test_every == 0 || iteration >= options_.max_iterations; }
+
+  /// Measures after the copies were glued; true when the iteration ends. `statistics` and `jumps` have one part per subdomain, the
+  /// latter may be empty. The measures of a sweep's change (quad, maxm, qm16) also ask for eta < tolerance: they do not see the
+  /// interface; the natural residuals do not need it, V = V_f + M^-1 H r being the mean of the copies. Collective.
+  bool Stops(int iteration, const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
+             const PartitionedState& state);
+
+  /// The report, with counts of the final state. On divergence the impulses were zeroed and V is V_f. Collective.
+  SolveReport Finish(int iterations, std::int64_t sweeps, PartitionedState* state);
+
+ private:
+  void MeasureAll(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
+                  const PartitionedState& state);
+  void Stop(SolveStatus status, std::string reason);
+  void CountContacts(const PartitionedState& state);
+  void FindWorst(const PartitionedState& state);
+
+  const PartitionedProblem& problem_;
+  StoppingOptions options_;
+  Communicator* communicator_;
+  SolveReport report_;
+  double first_ = -1.0;  // measure at the first test
+  double best_ = 0.0;
+  int best_iteration_ = 0;
+};
+
+/// The empty problem's report: converged without iterations.
+SolveReport ReportWithoutContacts(const PartitionedProblem& problem);
+
+}  // namespace nscdd

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "interface/interface_map.h"
+#include "nscdd/communicator.h"
+
+namespace nscdd {
+
+/// Interface impulses F_E, stored per copy (zero sum over the copies of a body), never as multipliers: no chain of copies, no
+/// signs, no rank deficiency. Empty without an interface.
+struct InterfaceState {
+  std::vector<double> impulse;  ///< Dofs per copy of InterfaceMap::copies
+};
+
+/// Jump of one subdomain's copies, V_E - U, before they were glued.
+struct JumpPart {
+  double sum_squares = 0.0;  ///< |dv|^2 + (I / m) dw^2 [m^2/s^2]
+  double copies = 0.0;
+};
+
+/// Stage 2 of NSCDD: the gluing operator X = sum A M~^-1 A^T is block diagonal, and  X dF = [V]  amounts to
+///     U = mean over the copies of V_E,   dF_E = M~_E (V_E - U),   V_E := U      (sum_E dF_E = 0 exactly, math.md section 5).
+class Gluing {
+ public:
+  Gluing(const std::vector<SubdomainProblem>& problems, const InterfaceMap& map, Communicator* communicator);
+
+  /// Does it; `jumps` gets one part per problem. Collective among neighbours.
+  void Apply(std::vector<SubdomainState>* states, InterfaceState* interface, std::vector<JumpPart>* jumps);
+
+  /// V_E -= M~_E^-1 F_E on all copies (warm start; V_E is V_f + M~^-1 H r before).
+  void SubtractImpulse(const InterfaceState& interface, std::vector<SubdomainState>* states) const;
+
+ private:
+  void FillSlots(const std::vector<SubdomainState>& states);
+  void Average();
+
+  const std::vector<SubdomainProblem>& problems_;
+  const InterfaceMap& map_;
+  Communicator* communicator_;
+  int dofs_;
+  std::vector<double> slots_;  // V of every copy of every interface body; after Average() U of the body in its first slot
+  std::vector<std::vector<double>> send_, receive_;
+};
+
+}  // namespace nscdd

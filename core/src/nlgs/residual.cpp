@@ -1,0 +1,114 @@
+#include "nlgs/residual.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nlgs/contact_frame.h"
+
+namespace nscdd {
+namespace {
+
+/// Projection on the Coulomb cone; mu = 0 is its half-line. Not a number stays not a number.
+Local ProjectOnCone(Local z, double mu) {
+  if (mu == 0.0) return {z.n <= 0.0 ? 0.0 : z.n, 0.0};
+  const double zt = std::abs(z.t);
+  if (zt <= mu * z.n) return z;
+  if (mu * zt <= -z.n) return {};
+  const double n = (z.n + mu * zt) / (1.0 + mu * mu);
+  return {n, std::copysign(mu * n, z.t)};
+}
+
+template <class Row>
+double Friction(const Row& c) {
+  if constexpr (HasFriction(Row::kModel)) return c.friction;
+  return 0.0;
+}
+
+/// Adds one contact; returns its error in velocity units.
+double AddContact(const Delassus& w, double offset, double mu, Local r, Local v, NaturalParts* parts) {
+  const double gap_speed = v.n + offset;
+  const double rho = 1.0 / (mu > 0.0 ? std::max(w.nn, w.tt) : w.nn);
+  const Local p = ProjectOnCone({r.n - rho * (gap_speed + mu * std::abs(v.t)), mu > 0.0 ? r.t - rho * v.t : 0.0}, mu);
+  const double en = r.n - p.n, et = r.t - p.t;
+  parts->sum_e2 += en * en + et * et;
+  parts->sum_r2 += r.n * r.n + r.t * r.t;
+  const double normal = std::abs(std::min(gap_speed, w.nn * r.n));
+  if (mu == 0.0) return std::max(normal, w.tt * std::abs(r.t));
+  const double bound = w.tt * mu * std::max(r.n, 0.0);
+  const double tangent = std::abs(w.tt * r.t - std::clamp(w.tt * r.t - v.t, -bound, bound));
+  return std::max(normal, tangent);
+}
+
+template <bool kShared, class Row>
+void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const SubdomainState& state, NaturalParts* parts) {
+  constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
+  const double* impulse = state.impulse.data();
+  for (std::size_t k = 0; k < rows.size(); ++k, impulse += kUnknowns) {
+    const Row& c = rows[k];
+    const double share_a = kShared ? 1.0 / p.multiplicity[c.a] : 1.0;
+    const double share_b = kShared ? 1.0 / p.multiplicity[c.b] : 1.0;
+    const Delassus w = DelassusBlock(c, &p.inverse_mass[kInertias * c.a], &p.inverse_mass[kInertias * c.b], share_a, share_b);
+    const Local v = RelativeVelocity(c, &state.velocity[kDofs * c.a], &state.velocity[kDofs * c.b]);
+    const Local r{impulse[0], kUnknowns == 2 ? impulse[kUnknowns - 1] : 0.0};
+    const double error = AddContact(w, c.offset, Friction(c), r, v, parts);
+    // A NaN must become the worst contact, so compare the other way round.
+    if (!(error <= parts->worst)) {
+      parts->worst = error;
+      parts->worst_contact = p.contact[k];
+    }
+  }
+}
+
+}  // namespace
+
+NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainState& state) {
+  NaturalParts parts;
+  VisitRows(problem, [&](const auto& rows) {
+    if (problem.multiplicity.empty()) {
+      AddRows<false>(problem, rows, state, &parts);
+    } else {
+      AddRows<true>(problem, rows, state, &parts);
+    }
+  });
+  return parts;
+}
+
+double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) {
+  if (sum_e2 == 0.0) return 0.0;
+  return std::sqrt(sum_e2) / std::max(std::sqrt(sum_r2), 1e-3 * scales.impulse);
+}
+
+double NatMax(double worst, const ResidualScales& scales) {
+  if (scales.velocity == 0.0) return std::isfinite(worst) ? 0.0 : worst;
+  return worst / scales.velocity;
+}
+
+StagnationMeasures Stagnation(const SweepStatistics& s, const ResidualScales& scales) {
+  StagnationMeasures m;
+  if (s.active == 0 || s.sum_rwr <= 1e-18 * scales.energy) return m;
+  const double na = static_cast<double>(s.active);
+  const double mean_rwr = s.sum_rwr / na;
+  m.quad_wr = std::sqrt(s.sum_wr2 / na);
+  m.quad = std::max(std::sqrt(s.sum_dv2 / na) / m.quad_wr, std::sqrt(s.sum_dv2_r2 / na) / mean_rwr);
+  m.maxm = std::max(s.max_dv / m.quad_wr, s.max_dv_r / mean_rwr);
+  m.qm16 = std::max(m.quad, m.maxm / 16.666);
+  return m;
+}
+
+double Measure(Criterion criterion, const Residuals& residuals) {
+  switch (criterion) {
+    case Criterion::kNat:
+      return residuals.nat;
+    case Criterion::kNatMax:
+      return residuals.nat_max;
+    case Criterion::kQuad:
+      return residuals.quad;
+    case Criterion::kMaxm:
+      return residuals.maxm;
+    case Criterion::kQm16:
+      break;
+  }
+  return residuals.qm16;
+}
+
+}  // namespace nscdd

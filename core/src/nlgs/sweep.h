@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "problem/subdomain_problem.h"
+
+namespace nscdd {
+
+/// What one sweep changed in one subdomain, after LMGC90: dv = W dr, rbar = (r_old + r_new) / 2, means of old and new of
+/// r.Wr and |Wr|^2; W is the diagonal block with the subdomain's masses.
+struct SweepStatistics {
+  std::int64_t active = 0;  ///< contacts with rbar != 0
+  double sum_dv2 = 0.0;
+  double sum_dv2_r2 = 0.0;
+  double sum_rwr = 0.0;
+  double sum_wr2 = 0.0;
+  double max_dv = 0.0;
+  double max_dv_r = 0.0;
+};
+
+/// One nonlinear Gauss-Seidel sweep over the contacts in their order; keeps V_E = V_f + M~^-1 (H r - F).
+void Sweep(const SubdomainProblem& problem, SubdomainState* state);
+
+/// The same, with statistics.
+SweepStatistics SweepWithStatistics(const SubdomainProblem& problem, SubdomainState* state);
+
+/// V_E := V_f + M~^-1 H r  (F_E is subtracted by the interface).
+void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state);
+
+}  // namespace nscdd

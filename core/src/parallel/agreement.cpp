@@ -1,0 +1,34 @@
+#include "parallel/agreement.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <string>
+
+#include "nscdd/error.h"
+
+namespace nscdd {
+
+void RunTogether(Communicator* communicator, const std::function<void()>& work) {
+  if (communicator->size() == 1) return work();
+  bool failed = true;
+  std::string sentence;
+  try {
+    work();
+    failed = false;
+  } catch (const std::exception& e) {
+    sentence = e.what();
+  } catch (...) {
+    sentence = "an unknown exception was thrown";
+  }
+  double culprit = failed ? communicator->rank() : communicator->size();
+  communicator->AllReduceMin({&culprit, 1});
+  const int root = static_cast<int>(culprit);
+  if (root == communicator->size()) return;
+  std::vector<std::byte> bytes(sentence.size());
+  std::memcpy(bytes.data(), sentence.data(), sentence.size());
+  communicator->Broadcast(root, &bytes);
+  throw Error(fmt::format("rank {}: {}", root, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
+}
+
+}  // namespace nscdd

@@ -1,0 +1,269 @@
+#include "partition/distribution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "nscdd/error.h"
+#include "parallel/agreement.h"
+
+namespace nscdd {
+namespace {
+
+enum class Record : std::uint8_t { kBody, kRemoval };
+
+template <class T>
+void Permute(const std::vector<std::size_t>& order, std::vector<T>* column) {
+  std::vector<T> sorted;
+  sorted.reserve(order.size());
+  for (const std::size_t i : order) sorted.push_back(std::move((*column)[i]));
+  *column = std::move(sorted);
+}
+
+/// Calls f on each column of the table.
+template <class Table, class Function>
+void ForEachColumn(Table& t, Function&& f) {
+  f(t.id);
+  f(t.kind);
+  f(t.mass);
+  f(t.inertia);
+  f(t.radius);
+  f(t.bounding_radius);
+  f(t.pose);
+  f(t.velocity);
+  f(t.force);
+}
+
+void SortById(Population* p) {
+  const auto& id = p->bodies.id;
+  if (std::is_sorted(id.begin(), id.end())) return;
+  std::vector<std::size_t> order(id.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  ForEachColumn(p->bodies, [&](auto& column) { Permute(order, &column); });
+  Permute(order, &p->owner);
+  Permute(order, &p->holders);
+}
+
+/// Drops the rows where keep is 0.
+void Filter(const std::vector<char>& keep, Population* p) {
+  const auto filter = [&](auto& column) {
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+      if (!keep[i]) continue;
+      if (out != i) column[out] = std::move(column[i]);
+      ++out;
+    }
+    column.resize(out);
+  };
+  ForEachColumn(p->bodies, filter);
+  filter(p->owner);
+  filter(p->holders);
+}
+
+bool Contains(const std::vector<int>& ranks, int rank) { return std::binary_search(ranks.begin(), ranks.end(), rank); }
+
+}  // namespace
+
+std::ptrdiff_t Population::RowOf(std::int64_t id) const {
+  const auto at = std::lower_bound(bodies.id.begin(), bodies.id.end(), id);
+  return at != bodies.id.end() && *at == id ? at - bodies.id.begin() : -1;
+}
+
+// The site of two disks is the mid-point of their centres: (rho_i + rho_j + alert) / 2 from a disk's centre at most; that of a disk
+// and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.
+double Reach::Of(double radius, double bounding_radius) const {
+  const double half = 0.5 * (largest_radius + alert);
+  if (bounding_radius == radius) return std::max(radius + alert, 0.5 * radius + half);
+  return bounding_radius + std::max(alert, half);
+}
+
+void Distribution::TakeOver(BodyTable read) {
+  const int me = communicator_->rank();
+  Population next;
+  next.bodies = std::move(read);
+  next.owner.assign(next.bodies.size(), me);
+  next.holders.resize(next.bodies.size());
+  SortById(&next);
+  const auto twice = std::adjacent_find(next.bodies.id.begin(), next.bodies.id.end());
+  if (twice != next.bodies.id.end()) {
+    throw Error(fmt::format("adapter '{}', ReadBodies: body {} is there twice; ids are unique", adapter_->Describe().name, *twice));
+  }
+  removed_.clear();
+  removed_from_.clear();
+  if (communicator_->size() > 1) {
+    std::vector<char> keep(next.size(), 1);
+    for (std::size_t row = 0; row < population_.size(); ++row) {
+      const std::int64_t id = population_.bodies.id[row];
+      const std::ptrdiff_t now = next.RowOf(id);
+      if (population_.owner[row] != me) {
+        if (now < 0) {
+          throw Error(fmt::format("body {} was removed from the host of rank {}, which holds a ghost of it; remove it on rank {}, "
+                                  "its owner", id, me, population_.owner[row]));
+        }
+        keep[now] = 0;
+      } else if (now >= 0) {
+        next.holders[now] = std::move(population_.holders[row]);
+      } else {
+        removed_.push_back(id);
+        removed_from_.push_back(std::move(population_.holders[row]));
+      }
+    }
+    Filter(keep, &next);
+  }
+  population_ = std::move(next);
+}
+
+void Distribution::PackBody(std::size_t row, int home, const std::vector<int>& holders, bool with_shapes,
+                            const ImpulseCache& by_carrier, std::vector<std::byte>* bytes) {
+  ByteWriter out(bytes);
+  const BodyTable& t = population_.bodies;
+  const std::int64_t id = t.id[row];
+  out.Put(Record::kBody);
+  ForEachColumn(t, [&](const auto& column) { out.Put(column[row]); });
+  out.Put(home);
+  out.PutSpan(std::span<const int>(holders));
+  const auto contacts = std::equal_range(by_carrier.contacts.begin(), by_carrier.contacts.end(), CachedImpulse{id, {}, {}},
+                                         [](const auto& a, const auto& b) { return a.carrier < b.carrier; });
+  out.PutSpan(std::span<const CachedImpulse>(contacts.first, contacts.second));
+  const auto copies = std::equal_range(by_carrier.interfaces.begin(), by_carrier.interfaces.end(),
+                                       CachedInterfaceImpulse{id, 0, {}},
+                                       [](const auto& a, const auto& b) { return a.body < b.body; });
+  out.PutSpan(std::span<const CachedInterfaceImpulse>(copies.first, copies.second));
+  std::vector<std::byte> shapes;
+  if (with_shapes) adapter_->transport()->Pack(id, &shapes);
+  out.PutSpan(std::span<const std::byte>(shapes));
+}
+
+void Distribution::PackAll(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
+                           const ImpulseCache& cache, Parcels* parcels) {
+  const int me = communicator_->rank();
+  ImpulseCache by_carrier = cache;
+  std::stable_sort(by_carrier.contacts.begin(), by_carrier.contacts.end(),
+                   [](const auto& a, const auto& b) { return a.carrier < b.carrier; });
+  for (std::size_t row = 0; row < population_.size(); ++row) {
+    const Vec2 centre = Centre(detection[row]);
+    const int home = blocks.RankOf(grid.CellOf(centre));
+    std::vector<int> needed{home};
+    grid.ForEachCellNear(centre, reach.Of(population_.bodies.radius[row], population_.bodies.bounding_radius[row]), [&](int cell) {
+      const int rank = blocks.RankOf(cell);
+      if (needed.back() != rank) needed.push_back(rank);
+    });
+    std::sort(needed.begin(), needed.end());
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+
+    std::vector<int>& before = population_.holders[row];
+    for (const int rank : needed) {
+      const bool has_it = before.empty() ? rank == me : Contains(before, rank);
+      if (rank != me) PackBody(row, home, needed, !has_it, by_carrier, &(*parcels)[rank]);
+    }
+    for (const int rank : before) {
+      if (rank == me || Contains(needed, rank)) continue;
+      ByteWriter out(&(*parcels)[rank]);
+      out.Put(Record::kRemoval);
+      out.Put(population_.bodies.id[row]);
+    }
+    if (!Contains(needed, me)) leaving_.push_back(population_.bodies.id[row]);
+    migrated_ += home != me;
+    population_.owner[row] = home;
+    if (needed.size() == 1) needed.clear();
+    before = std::move(needed);
+  }
+  for (std::size_t i = 0; i < removed_.size(); ++i) {
+    for (const int rank : removed_from_[i]) {
+      if (rank == me) continue;
+      ByteWriter out(&(*parcels)[rank]);
+      out.Put(Record::kRemoval);
+      out.Put(removed_[i]);
+    }
+  }
+}
+
+void Distribution::Unpack(const Message& message, ImpulseCache* cache) {
+  ByteReader in(message.bytes);
+  while (!in.empty()) {
+    if (in.Get<Record>() == Record::kRemoval) {
+      adapter_->transport()->Remove(in.Get<std::int64_t>());
+      continue;
+    }
+    BodyTable& t = population_.bodies;
+    ForEachColumn(t, [&](auto& column) {
+      using Value = typename std::decay_t<decltype(column)>::value_type;
+      column.push_back(in.Get<Value>());
+    });
+    population_.owner.push_back(in.Get<int>());
+    population_.holders.push_back(in.GetVector<int>());
+    if (population_.holders.back().size() == 1) population_.holders.back().clear();
+    const auto contacts = in.GetVector<CachedImpulse>();
+    const auto interfaces = in.GetVector<CachedInterfaceImpulse>();
+    cache->contacts.insert(cache->contacts.end(), contacts.begin(), contacts.end());
+    cache->interfaces.insert(cache->interfaces.end(), interfaces.begin(), interfaces.end());
+    const auto shapes = in.GetVector<std::byte>();
+    if (!shapes.empty()) adapter_->transport()->Insert(t.id.back(), shapes);
+  }
+}
+
+void Distribution::SortRows() {
+  SortById(&population_);
+  const auto& id = population_.bodies.id;
+  const auto twice = std::adjacent_find(id.begin(), id.end());
+  if (twice != id.end()) {
+    throw Error(fmt::format("body {} is in the hosts of several ranks; before the first step every body is in exactly one, the "
+                            "solver makes the ghosts", *twice));
+  }
+}
+
+void Distribution::Move(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
+                        ImpulseCache* cache) {
+  migrated_ = 0;
+  leaving_.clear();
+  if (communicator_->size() == 1) return;
+  Parcels parcels;
+  RunTogether(communicator_, [&] { PackAll(detection, grid, blocks, reach, *cache, &parcels); });
+  std::vector<Message> outgoing;
+  for (auto& [rank, bytes] : parcels) outgoing.push_back({rank, std::move(bytes)});
+  const std::vector<Message> incoming = communicator_->Deliver(std::move(outgoing));
+  RunTogether(communicator_, [&] {
+    std::vector<char> keep(population_.size(), 1);
+    for (const std::int64_t id : leaving_) {
+      keep[population_.RowOf(id)] = 0;
+      adapter_->transport()->Remove(id);
+    }
+    Filter(keep, &population_);
+    for (const Message& message : incoming) Unpack(message, cache);
+    SortRows();
+    cache->Sort();
+  });
+}
+
+Sharing Distribution::Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const {
+  if (communicator_->size() == 1) return MakeSharing(population_.size(), std::move(pairs));
+  const int me = communicator_->rank();
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  Parcels parcels;
+  for (const auto& [row, subdomain] : pairs) {
+    for (const int rank : population_.holders[row]) {
+      if (rank == me) continue;
+      ByteWriter out(&parcels[rank]);
+      out.Put(population_.bodies.id[row]);
+      out.Put(subdomain);
+    }
+  }
+  std::vector<Message> outgoing;
+  for (auto& [rank, bytes] : parcels) outgoing.push_back({rank, std::move(bytes)});
+  for (const Message& message : communicator_->Deliver(std::move(outgoing))) {
+    ByteReader in(message.bytes);
+    while (!in.empty()) {
+      const auto id = in.Get<std::int64_t>();
+      const auto subdomain = in.Get<std::int32_t>();
+      pairs.emplace_back(static_cast<std::int32_t>(population_.RowOf(id)), subdomain);
+    }
+  }
+  return MakeSharing(population_.size(), std::move(pairs));
+}
+
+}  // namespace nscdd

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "nscdd/communicator.h"
+#include "nscdd/platform_adapter.h"
+#include "partition/grid.h"
+#include "partition/sharing.h"
+#include "stepping/impulse_cache.h"
+
+namespace nscdd {
+
+/// The bodies that a rank holds: those it owns (their home cell is one of its subdomains) and ghosts, which other ranks own but
+/// which may take part in contacts of its subdomains. Rows ascend by id.
+struct Population {
+  BodyTable bodies;
+  std::vector<int> owner;                 ///< rank, of each row
+  std::vector<std::vector<int>> holders;  ///< ranks that hold it, ascending, owner included; empty: the owner alone
+
+  std::size_t size() const { return owner.size(); }
+  std::ptrdiff_t RowOf(std::int64_t id) const;  ///< -1 if it is not here
+};
+
+/// How far from its centre a body may have contact sites at a detection.
+struct Reach {
+  double largest_radius = 0.0;  ///< [m] of any disk, on any rank
+  double alert = 0.0;           ///< [m]
+
+  double Of(double radius, double bounding_radius) const;
+};
+
+/// Keeps each body on the rank of its home cell and ghosts where they are needed. Bodies move between neighbours only, in one
+/// round of messages a step; with them go their cached impulses.
+class Distribution {
+ public:
+  Distribution(PlatformAdapter* adapter, Communicator* communicator) : adapter_(adapter), communicator_(communicator) {}
+
+  /// The host's bodies: rows of owned and of new ones are taken over, ghosts' rows wait for their owners' words. Local.
+  void TakeOver(BodyTable read);
+
+  /// Moves bodies so that every rank holds what its subdomains need at the configuration `detection` (of the owned rows, in order).
+  /// `cache` holds the owned bodies' impulses before, and those of all held bodies after. Collective.
+  void Move(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach, ImpulseCache* cache);
+
+  /// Completes a list of (row, subdomain) of this rank's contacts to the sharing of all held bodies. Collective.
+  Sharing Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const;
+
+  const Population& population() const { return population_; }
+  bool Owns(std::size_t row) const { return population_.owner[row] == communicator_->rank(); }
+  std::int64_t migrated() const { return migrated_; }  ///< owned bodies that left this rank in the last Move()
+
+ private:
+  using Parcels = std::map<int, std::vector<std::byte>>;
+  void PackAll(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
+               const ImpulseCache& cache, Parcels* parcels);
+  void PackBody(std::size_t row, int home, const std::vector<int>& holders, bool with_shapes, const ImpulseCache& by_carrier,
+                std::vector<std::byte>* bytes);
+  void Unpack(const Message& message, ImpulseCache* cache);
+  void SortRows();
+
+  PlatformAdapter* adapter_;
+  Communicator* communicator_;
+  Population population_;
+  std::vector<std::int64_t> removed_;          // owned bodies that the host's user removed
+  std::vector<std::vector<int>> removed_from_;  // their other holders
+  std::vector<std::int64_t> leaving_;           // bodies that this host need not hold any more
+  std::int64_t migrated_ = 0;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace nscdd {
+
+/// Which subdomains hold a contact of each body of a rank's table: for row i, ascending numbers. Their count is the multiplicity
+/// m_i. Prescribed bodies have none: they have no unknown, so nothing to glue.
+struct Sharing {
+  std::vector<std::int32_t> begin{0};     ///< one more than rows
+  std::vector<std::int32_t> subdomain;
+
+  std::span<const std::int32_t> Of(std::size_t row) const {
+    return {subdomain.data() + begin[row], subdomain.data() + begin[row + 1]};
+  }
+  int Multiplicity(std::size_t row) const { return begin[row + 1] - begin[row]; }
+};
+
+/// From pairs (row, subdomain) in any order, repeated or not.
+Sharing MakeSharing(std::size_t rows, std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
+
+}  // namespace nscdd

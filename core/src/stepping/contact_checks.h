@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "nscdd/body_table.h"
+#include "nscdd/contact_table.h"
+#include "nscdd/platform_adapter.h"
+
+namespace nscdd {
+
+/// Throws Error, naming the adapter, its function and the body or contact, when a table breaks the contract of
+/// platform_adapter.h: lengths of columns, ids, finite numbers, positive masses.
+void CheckBodies(const BodyTable& bodies, const AdapterDescription& adapter);
+
+/// The same for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a free body.
+/// Arms on free bodies need the capability `clusters`.
+void CheckContacts(const ContactTable& contacts, const BodyTable& bodies, double alert, const AdapterDescription& adapter);
+
+}  // namespace nscdd

@@ -1,0 +1,527 @@
+#include "nscdd/time_stepper.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "algorithms/algorithms.h"
+#include "algorithms/monitor.h"
+#include "nscdd/error.h"
+#include "parallel/agreement.h"
+#include "parallel/ordered_reduction.h"
+#include "partition/distribution.h"
+#include "problem/initial_state.h"
+#include "problem/subdomain_builder.h"
+#include "stepping/contact_checks.h"
+#include "stepping/final_gap.h"
+#include "stepping/impulse_cache.h"
+#include "stepping/normal_law.h"
+#include "stepping/reconcile.h"
+
+namespace nscdd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
+  const auto* nscdd = std::get_if<NscddOptions>(&algorithm);
+  return nscdd ? nscdd->partition : PartitionOptions{};
+}
+
+void Require(bool holds, const std::string& sentence) {
+  if (!holds) throw Error(sentence);
+}
+
+void CheckStopping(const StoppingOptions& o) {
+  Require(o.tolerance > 0.0, fmt::format("tolerance is {}; it must be positive", o.tolerance));
+  Require(o.max_iterations >= 1, fmt::format("max_iterations is {}; it must be at least 1", o.max_iterations));
+  Require(o.test_every >= 1, fmt::format("test_every is {}; it must be at least 1", o.test_every));
+  Require(o.stall_iterations >= 1, fmt::format("stall_iterations is {}; it must be at least 1", o.stall_iterations));
+}
+
+void CheckOptions(const SteppingOptions& s, const AlgorithmOptions& algorithm) {
+  std::visit([](const auto& o) { CheckStopping(o.stopping); }, algorithm);
+  Require(s.theta >= 0.5 && s.theta <= 1.0, fmt::format("theta is {}; it must be in [0.5, 1]", s.theta));
+  Require(std::isfinite(s.alert_distance), "alert_distance must be finite");
+  Require(s.feedback_beta >= 0.0 && s.feedback_beta <= 1.0, fmt::format("feedback_beta is {}; it must be in [0, 1]", s.feedback_beta));
+  Require(s.feedback_slop >= 0.0 && s.feedback_cap >= 0.0, "feedback_slop and feedback_cap must not be negative");
+  const PartitionOptions p = PartitionOf(algorithm);
+  Require(p.nx >= 1 && p.ny >= 1 && static_cast<std::int64_t>(p.nx) * p.ny <= 1'000'000,
+          fmt::format("subdomains is {}x{}; both must be at least 1 and their product at most 1000000", p.nx, p.ny));
+  Require(p.repartition_every >= 1, fmt::format("repartition_every is {}; it must be at least 1", p.repartition_every));
+  if (const auto* nscdd = std::get_if<NscddOptions>(&algorithm)) {
+    Require(nscdd->sweeps_per_stage >= 1, fmt::format("sweeps_per_stage is {}; it must be at least 1", nscdd->sweeps_per_stage));
+  }
+}
+
+}  // namespace
+
+class TimeStepper::Impl {
+ public:
+  Impl(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter, Communicator* communicator)
+      : stepping_(stepping),
+        algorithm_(algorithm),
+        partition_(PartitionOf(algorithm)),
+        adapter_(adapter),
+        communicator_(communicator),
+        distribution_(adapter, communicator) {
+    RunTogether(communicator, [&] {
+      CheckOptions(stepping, algorithm);
+      description_ = adapter->Describe();
+      const int ranks = communicator->size(), subdomains = partition_.nx * partition_.ny;
+      Require(ranks <= subdomains,
+              fmt::format("{} ranks share {} subdomain{}; a rank needs at least one: start at most {} or ask for more subdomains",
+                          ranks, subdomains, subdomains == 1 ? "" : "s", subdomains));
+      Require(ranks == 1 || adapter->transport() != nullptr,
+              fmt::format("adapter '{}' cannot move bodies between ranks (no distributed_bodies); start one rank", description_.name));
+    });
+    blocks_ = Blocks(partition_.nx * partition_.ny, communicator->size());
+    first_subdomain_ = blocks_.First(communicator->rank());
+    local_subdomains_ = blocks_.Last(communicator->rank()) - first_subdomain_;
+  }
+
+  const StepReport& Step(double dt) {
+    const Clock::time_point start = Clock::now();
+    const CommunicationCounters before = communicator_->counters();
+    report_ = {};
+    Distribute(dt);
+    const double waited = communicator_->counters().seconds;
+    report_.seconds_detect = SecondsSince(start) - (waited - before.seconds);
+    const Clock::time_point solving = Clock::now();
+    Prepare(dt);
+    SolveProblem(dt);
+    report_.seconds_solve = SecondsSince(solving) - (communicator_->counters().seconds - waited);
+    Advance(dt);
+    ++step_;
+    time_ += dt;
+    report_.step = step_;
+    report_.time = time_;
+    CountCommunication(before);
+    report_.seconds_communicate = communicator_->counters().seconds - before.seconds;
+    report_.seconds_total = SecondsSince(start);
+    return report_;
+  }
+
+  std::vector<std::byte> SaveState() const;
+  void LoadState(std::span<const std::byte> bytes);
+
+  std::vector<BodyRecord> body_records_;
+  std::vector<ContactRecord> contact_records_;
+
+ private:
+  const BodyTable& bodies() const { return distribution_.population().bodies; }
+  std::size_t rows() const { return distribution_.population().size(); }
+  bool IsFree(std::size_t row) const { return bodies().kind[row] == BodyKind::kFree; }
+  int HomeOf(const Pose& q) const { return grid_.CellOf(Centre(q)); }
+
+  Pose Drift(const Pose& q, const Twist& v, double dt) const {
+    return {grid_.Wrap(q.x + dt * v.vx), q.y + dt * v.vy, q.angle + dt * v.spin};
+  }
+
+  void Distribute(double dt);
+  void ChooseAlertDistance();
+  void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius);
+  void Detect();
+  void SelectContacts();
+  void Prepare(double dt);
+  void ComputeFreeVelocity(double dt);
+  void ComputeOffsets(double dt);
+  void ReduceScales(double dt);
+  void SolveProblem(double dt);
+  void Advance(double dt);
+  void RecordContacts(double half);
+  void Summarise(double dt);
+  void CommitStep();
+  void CountCommunication(const CommunicationCounters& before);
+
+  SteppingOptions stepping_;
+  AlgorithmOptions algorithm_;
+  PartitionOptions partition_;
+  PlatformAdapter* adapter_;
+  Communicator* communicator_;
+  AdapterDescription description_;
+  Blocks blocks_;
+  int first_subdomain_ = 0, local_subdomains_ = 1;
+
+  // Kept between steps.
+  Distribution distribution_;
+  Grid grid_;
+  ImpulseCache cache_;
+  double alert_ = -1.0;
+  std::int64_t step_ = 0;
+  double time_ = 0.0;
+
+  // Of the present step.
+  std::vector<Pose> detection_;                    // q_m of every row
+  ContactTable contacts_;
+  std::vector<std::vector<std::int32_t>> chosen_;  // rows of contacts_ of each of this rank's subdomains, by key
+  std::vector<std::int32_t> solved_;               // all of them in the order of the table
+  std::vector<double> inverse_mass_, inverse_inertia_, offset_, approach_;
+  std::vector<Twist> free_velocity_, velocity_;    // by row; velocity_ of rows that only others own is their local copy's
+  std::vector<Vec2> impulse_, relative_velocity_;  // by row of contacts_
+  Sharing sharing_;
+  PartitionedProblem problem_;
+  StepReport report_;
+};
+
+// 1 distribute, 2 read, 3 detect (numbers of architecture.md section 3).
+void TimeStepper::Impl::Distribute(double dt) {
+  RunTogether(communicator_, [&] {
+    Require(std::isfinite(dt) && dt > 0.0, fmt::format("the time step is {} s; it must be positive and finite", dt));
+    BodyTable read;
+    adapter_->ReadBodies(&read);
+    CheckBodies(read, description_);
+    distribution_.TakeOver(std::move(read));
+  });
+  if (alert_ < 0.0) ChooseAlertDistance();
+  const double half = (1.0 - stepping_.theta) * dt;
+  if (description_.period > 0.0 && step_ == 0) grid_.SetPeriod(description_.period_origin, description_.period);
+  const auto drift_all = [&] {
+    detection_.resize(rows());
+    for (std::size_t i = 0; i < rows(); ++i) detection_[i] = Drift(bodies().pose[i], bodies().velocity[i], half);
+  };
+  drift_all();
+  Reach reach;
+  reach.alert = alert_;
+  PlaceCuts(detection_, &reach.largest_radius);
+  distribution_.Move(detection_, grid_, blocks_, reach, &cache_);
+  if (communicator_->size() > 1) drift_all();
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  RunTogether(communicator_, [&] {
+    Detect();
+    SelectContacts();
+    for (std::size_t e = 0; e < chosen_.size(); ++e) {
+      for (const std::int32_t c : chosen_[e]) {
+        for (const std::int32_t body : {contacts_.a[c], contacts_.b[c]}) {
+          if (IsFree(body)) pairs.emplace_back(body, first_subdomain_ + static_cast<std::int32_t>(e));
+        }
+      }
+    }
+  });
+  sharing_ = distribution_.Share(std::move(pairs));
+}
+
+/// A tenth of the mean disk radius of free bodies. Radii are summed as multiples of 2^-26 of the largest: exact in any order.
+void TimeStepper::Impl::ChooseAlertDistance() {
+  alert_ = stepping_.alert_distance;
+  if (alert_ >= 0.0) return;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (IsFree(i)) largest = std::min(largest, -bodies().radius[i]);
+  }
+  communicator_->AllReduceMin({&largest, 1});
+  largest = -largest;
+  double mine[2] = {0.0, 0.0};
+  const double unit = std::ldexp(1.0, 26);
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (!IsFree(i)) continue;
+    mine[0] += largest > 0.0 ? std::round(bodies().radius[i] / largest * unit) : 0.0;
+    mine[1] += 1.0;
+  }
+  const std::vector<double> all = communicator_->AllGather(mine);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < all.size(); i += 2) {
+    sum += all[i];
+    count += all[i + 1];
+  }
+  alert_ = count > 0.0 ? 0.1 * largest * (sum / unit / count) : 0.0;
+}
+
+/// The grid covers the centres of the free bodies (minima and maxima are exact in any order).
+void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* largest_radius) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  double box[5] = {infinity, infinity, infinity, infinity, 0.0};
+  for (std::size_t i = 0; i < rows(); ++i) {
+    box[4] = std::min(box[4], -bodies().radius[i]);
+    if (!IsFree(i)) continue;
+    box[0] = std::min(box[0], detection[i].x);
+    box[1] = std::min(box[1], detection[i].y);
+    box[2] = std::min(box[2], -detection[i].x);
+    box[3] = std::min(box[3], -detection[i].y);
+  }
+  communicator_->AllReduceMin(box);
+  *largest_radius = -box[4];
+  if (step_ % partition_.repartition_every != 0) return;
+  const bool empty = box[0] == infinity;
+  grid_ = Grid(empty ? Vec2{} : Vec2{box[0], box[1]}, empty ? Vec2{} : Vec2{-box[2], -box[3]}, partition_.nx, partition_.ny);
+  if (description_.period > 0.0) grid_.SetPeriod(description_.period_origin, description_.period);
+}
+
+void TimeStepper::Impl::Detect() {
+  contacts_.Clear();
+  adapter_->DetectContacts({bodies().id, detection_}, alert_, &contacts_);
+  CheckContacts(contacts_, bodies(), alert_, description_);
+}
+
+// 4 partition: each contact to the subdomain of its site.
+void TimeStepper::Impl::SelectContacts() {
+  chosen_.resize(local_subdomains_);
+  for (auto& list : chosen_) list.clear();
+  solved_.clear();
+  const bool one = grid_.cells() == 1;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (stepping_.normal_law == NormalLaw::kStrict && contacts_.gap[c] > 0.0) continue;
+    const int e = one ? 0 : grid_.CellOf(contacts_.site[c]) - first_subdomain_;
+    if (e < 0 || e >= local_subdomains_) continue;
+    chosen_[e].push_back(static_cast<std::int32_t>(c));
+    solved_.push_back(static_cast<std::int32_t>(c));
+  }
+}
+
+// 5 build.
+void TimeStepper::Impl::Prepare(double dt) {
+  ComputeFreeVelocity(dt);
+  ComputeOffsets(dt);
+  ReduceScales(dt);
+  const ProblemTables tables{inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_};
+  SubdomainBuilder builder(tables, problem_.model);
+  problem_.subdomains.clear();
+  for (int e = 0; e < local_subdomains_; ++e) {
+    problem_.subdomains.push_back(builder.Build(first_subdomain_ + e, chosen_[e]));
+  }
+  problem_.interface = MakeInterfaceMap(problem_.subdomains, sharing_, blocks_, communicator_->rank());
+  problem_.contacts = &contacts_;
+  problem_.body_id = &bodies().id;
+}
+
+/// V_f = V_i + dt M^-1 f; prescribed bodies keep theirs.
+void TimeStepper::Impl::ComputeFreeVelocity(double dt) {
+  inverse_mass_.assign(rows(), 0.0);
+  inverse_inertia_.assign(rows(), 0.0);
+  free_velocity_ = bodies().velocity;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (!IsFree(i)) continue;
+    inverse_mass_[i] = 1.0 / bodies().mass[i];
+    inverse_inertia_[i] = 1.0 / bodies().inertia[i];
+    const Wrench& f = bodies().force[i];
+    free_velocity_[i].vx += dt * inverse_mass_[i] * f.fx;
+    free_velocity_[i].vy += dt * inverse_mass_[i] * f.fy;
+    free_velocity_[i].spin += dt * inverse_inertia_[i] * f.torque;
+  }
+}
+
+void TimeStepper::Impl::ComputeOffsets(double dt) {
+  offset_.assign(contacts_.size(), 0.0);
+  approach_.assign(contacts_.size(), 0.0);
+  for (const std::int32_t c : solved_) {
+    const Twist &va = bodies().velocity[contacts_.a[c]], &vb = bodies().velocity[contacts_.b[c]];
+    double approach = Dot(contacts_.normal[c], Linear(vb) - Linear(va));
+    if (contacts_.has_arms()) {
+      approach += Cross(contacts_.arm_b[c], contacts_.normal[c]) * vb.spin - Cross(contacts_.arm_a[c], contacts_.normal[c]) * va.spin;
+    }
+    approach_[c] = approach;
+    offset_[c] = NormalOffset(stepping_, contacts_.gap[c], approach, contacts_.restitution[c], dt);
+  }
+}
+
+/// What all ranks must know before they build: the unknowns required, scales of the residuals, counts.
+void TimeStepper::Impl::ReduceScales(double dt) {
+  // sums: |dt f|^2, |dt f|^2 / m, contacts, free bodies, radii;  maxima: |dt f| / m, approach speed, friction, arms
+  std::vector<ReductionPart<5, 4>> parts(local_subdomains_);
+  for (auto& part : parts) part = {};
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (!IsFree(i) || !distribution_.Owns(i)) continue;
+    auto& part = parts[HomeOf(detection_[i]) - first_subdomain_];
+    const Wrench& f = bodies().force[i];
+    const double f2 = dt * dt * (f.fx * f.fx + f.fy * f.fy);
+    part[0] += f2;
+    part[1] += f2 * inverse_mass_[i];
+    part[3] += 1.0;
+    part[4] += bodies().radius[i];
+    part[5] = std::max(part[5], std::sqrt(f2) * inverse_mass_[i]);
+  }
+  for (std::size_t e = 0; e < chosen_.size(); ++e) {
+    parts[e][2] = static_cast<double>(chosen_[e].size());
+    for (const std::int32_t c : chosen_[e]) parts[e][6] = std::max(parts[e][6], -approach_[c]);
+  }
+  const ContactModel mine =
+      RequiredModel({inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_});
+  parts.front()[7] = HasFriction(mine);
+  parts.front()[8] = HasArms(mine);
+  const auto t = ReduceInOrder<5, 4>(parts, communicator_);
+  problem_.scales = {std::sqrt(t[0]), std::max(t[5], t[6]), t[1]};
+  problem_.contact_count = static_cast<std::int64_t>(t[2]);
+  problem_.model = t[7] > 0.0 ? (t[8] > 0.0 ? ContactModel::kFrictionArms : ContactModel::kFriction)
+                              : (t[8] > 0.0 ? ContactModel::kNormalArms : ContactModel::kNormal);
+  report_.bodies = static_cast<std::int64_t>(t[3]);
+  report_.mean_radius = t[3] > 0.0 ? t[4] / t[3] : 0.0;
+}
+
+// 6 warm start, 7 solve, 8 reconcile.
+void TimeStepper::Impl::SolveProblem(double dt) {
+  const double scale = cache_.dt > 0.0 ? dt / cache_.dt : 1.0;
+  const bool warm = stepping_.warm_start && cache_.dt > 0.0;
+  PartitionedState state =
+      InitialState(problem_, warm ? WarmImpulses(cache_, contacts_, bodies().id, scale) : std::vector<Vec2>{});
+  if (warm && !problem_.interface.copies.empty()) {
+    state.interface.impulse =
+        WarmInterfaceImpulses(cache_, problem_.interface, sharing_, problem_.subdomains, bodies().id, scale);
+    Gluing(problem_.subdomains, problem_.interface, communicator_).SubtractImpulse(state.interface, &state.subdomains);
+  }
+  report_.solve = problem_.contact_count == 0
+                      ? ReportWithoutContacts(problem_)
+                      : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &state); }, algorithm_);
+  report_.solve.subdomains = grid_.cells();
+
+  impulse_.assign(contacts_.size(), {});
+  relative_velocity_.assign(contacts_.size(), {});
+  velocity_ = free_velocity_;
+  for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
+    StoreImpulses(problem_.subdomains[e], state.subdomains[e], &impulse_, &relative_velocity_);
+    StoreVelocities(problem_.subdomains[e], state.subdomains[e], inverse_mass_, &velocity_);
+  }
+  Reconcile(problem_, state, distribution_, sharing_, solved_, impulse_, communicator_, &velocity_, &cache_);
+  cache_.dt = dt;
+}
+
+// 9 move, 10 commit, 11 report.
+void TimeStepper::Impl::Advance(double dt) {
+  const double half = stepping_.theta * dt;
+  RecordContacts(half);
+  body_records_.clear();
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (!distribution_.Owns(i)) continue;
+    const BodyTable& t = bodies();
+    body_records_.push_back({t.id[i], t.kind[i], t.radius[i], Drift(detection_[i], velocity_[i], half), velocity_[i],
+                             sharing_.Multiplicity(i), HomeOf(detection_[i])});
+  }
+  Summarise(dt);
+  RunTogether(communicator_, [&] { CommitStep(); });
+}
+
+void TimeStepper::Impl::RecordContacts(double half) {
+  contact_records_.clear();
+  const bool arms = contacts_.has_arms();
+  for (std::size_t e = 0; e < chosen_.size(); ++e) {
+    for (const std::int32_t c : chosen_[e]) {
+      const std::int32_t a = contacts_.a[c], b = contacts_.b[c];
+      // Positions without the wrap at the period's ends, so that distances stay those of this image.
+      const auto moved = [&](std::int32_t row) {
+        const Pose& q = detection_[row];
+        const Twist& v = velocity_[row];
+        return Pose{q.x + half * v.vx, q.y + half * v.vy, q.angle + half * v.spin};
+      };
+      const double shift = contacts_.has_images() ? contacts_.image[c] * description_.period : 0.0;
+      const double bound = contacts_.friction[c] * impulse_[c].x;
+      const int status = impulse_[c].x <= 0.0 ? 0 : std::abs(impulse_[c].y) < bound ? 1 : 2;
+      const Vec2 point = Centre(detection_[a]) + (arms ? contacts_.arm_a[c] : Vec2{}) + contacts_.lever_a[c] * contacts_.normal[c];
+      contact_records_.push_back({KeyOf(contacts_, c, bodies().id), contacts_.gap[c],
+                                  FinalGap(contacts_, c, detection_[a], detection_[b], moved(a), moved(b), shift),
+                                  contacts_.normal[c], point, impulse_[c], relative_velocity_[c], status,
+                                  first_subdomain_ + static_cast<int>(e)});
+    }
+  }
+}
+
+void TimeStepper::Impl::Summarise(double dt) {
+  // sums: kinetic energy, momentum, interpenetration, injected energy;  maxima: interpenetration, speed
+  std::vector<ReductionPart<5, 2>> parts(local_subdomains_);
+  for (auto& part : parts) part = {};
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (!IsFree(i) || !distribution_.Owns(i)) continue;
+    auto& part = parts[HomeOf(detection_[i]) - first_subdomain_];
+    const Twist& v = velocity_[i];
+    const double m = bodies().mass[i], speed2 = v.vx * v.vx + v.vy * v.vy;
+    part[0] += 0.5 * (m * speed2 + bodies().inertia[i] * v.spin * v.spin);
+    part[1] += m * v.vx;
+    part[2] += m * v.vy;
+    part[6] = std::max(part[6], std::sqrt(speed2));
+  }
+  std::size_t row = 0;
+  for (std::size_t e = 0; e < chosen_.size(); ++e) {
+    for (const std::int32_t c : chosen_[e]) {
+      const double interpenetration = std::max(0.0, -contact_records_[row++].final_gap);
+      parts[e][3] += interpenetration;
+      parts[e][4] += impulse_[c].x * std::max(0.0, -offset_[c]);
+      parts[e][5] = std::max(parts[e][5], interpenetration);
+    }
+  }
+  const auto t = ReduceInOrder<5, 2>(parts, communicator_);
+  report_.kinetic_energy = t[0];
+  report_.momentum_x = t[1];
+  report_.momentum_y = t[2];
+  report_.mean_interpenetration = problem_.contact_count > 0 ? t[3] / static_cast<double>(problem_.contact_count) : 0.0;
+  report_.max_interpenetration = t[5];
+  report_.injected_energy = stepping_.normal_law == NormalLaw::kFeedback ? t[4] : 0.0;
+  report_.max_drift = t[6] * dt;
+  report_.alert_distance = alert_;
+}
+
+void TimeStepper::Impl::CommitStep() {
+  std::vector<std::int64_t> id;
+  std::vector<Pose> pose;
+  std::vector<Twist> velocity;
+  for (const BodyRecord& body : body_records_) {
+    if (!std::isfinite(body.pose.x + body.pose.y + body.pose.angle + body.velocity.vx + body.velocity.vy + body.velocity.spin)) {
+      throw Error(fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", body.id));
+    }
+    id.push_back(body.id);
+    pose.push_back(body.pose);
+    velocity.push_back(body.velocity);
+  }
+  std::vector<ContactKey> key;
+  std::vector<Vec2> impulse;
+  for (const ContactRecord& contact : contact_records_) {
+    key.push_back(contact.key);
+    impulse.push_back(contact.impulse);
+  }
+  adapter_->Commit({id, pose, velocity, key, impulse});
+}
+
+void TimeStepper::Impl::CountCommunication(const CommunicationCounters& before) {
+  report_.migrated_bodies = distribution_.migrated();
+  if (communicator_->size() == 1) return;
+  const CommunicationCounters& now = communicator_->counters();
+  const double mine[3] = {static_cast<double>(now.messages - before.messages), static_cast<double>(now.bytes - before.bytes),
+                          static_cast<double>(distribution_.migrated())};
+  report_.collectives = now.collectives - before.collectives + 1;
+  const std::vector<double> all = communicator_->AllGather(mine);
+  report_.migrated_bodies = 0;
+  for (std::size_t i = 0; i < all.size(); i += 3) {
+    report_.messages += static_cast<std::int64_t>(all[i]);
+    report_.message_bytes += static_cast<std::int64_t>(all[i + 1]);
+    report_.migrated_bodies += static_cast<std::int64_t>(all[i + 2]);
+  }
+}
+
+std::vector<std::byte> TimeStepper::Impl::SaveState() const {
+  std::vector<std::byte> bytes;
+  ByteWriter out(&bytes);
+  out.Put(step_);
+  out.Put(time_);
+  out.Put(alert_);
+  out.Put(grid_);
+  out.Put(cache_.dt);
+  out.PutSpan(std::span<const CachedImpulse>(cache_.contacts));
+  out.PutSpan(std::span<const CachedInterfaceImpulse>(cache_.interfaces));
+  return bytes;
+}
+
+void TimeStepper::Impl::LoadState(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  step_ = in.Get<std::int64_t>();
+  time_ = in.Get<double>();
+  alert_ = in.Get<double>();
+  grid_ = in.Get<Grid>();
+  cache_.dt = in.Get<double>();
+  cache_.contacts = in.GetVector<CachedImpulse>();
+  cache_.interfaces = in.GetVector<CachedInterfaceImpulse>();
+}
+
+TimeStepper::TimeStepper(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter,
+                         Communicator* communicator)
+    : impl_(std::make_unique<Impl>(stepping, algorithm, adapter, communicator)) {}
+TimeStepper::~TimeStepper() = default;
+TimeStepper::TimeStepper(TimeStepper&&) noexcept = default;
+
+const StepReport& TimeStepper::Step(double dt) { return impl_->Step(dt); }
+std::vector<std::byte> TimeStepper::SaveState() const { return impl_->SaveState(); }
+void TimeStepper::LoadState(std::span<const std::byte> bytes) { impl_->LoadState(bytes); }
+std::span<const BodyRecord> TimeStepper::bodies() const { return impl_->body_records_; }
+std::span<const ContactRecord> TimeStepper::contacts() const { return impl_->contact_records_; }
+
+}  // namespace nscdd

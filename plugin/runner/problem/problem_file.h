@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "nscdd/contact_problem.h"
+
+namespace nscdd {
+
+/// One contact problem from a JSON file; contacts keep their order.
+///
+/// Keys (SI units): `dt`, `theta` (default 0.5), `gravity` [gx, gy], `mu`,
+///   `bodies`   rows x y th vx vy w r m I fixed (state at the beginning of the step),
+///   `planes`   rows nx ny d: the half-plane n.x >= d is free,
+///   `contacts` rows i j nx ny gap l_i l_j b_n [...]: the normal leads from j to i, j < 0 names plane -1 - j; what follows in a
+///              row (a stored solution, say) is not read.
+/// In the problem body A of a contact is j and body B is i; planes are prescribed bodies behind the others.
+struct ProblemFile {
+  ContactProblem problem;
+  std::size_t body_count = 0;  ///< of the file, without the planes
+  double theta = 0.5;
+};
+
+/// Throws Error, naming file and key, when the file cannot be read or its numbers make no problem.
+ProblemFile ReadProblemFile(const std::filesystem::path& path);
+
+}  // namespace nscdd
