@@ -1,0 +1,48 @@
+#include "commands/solve.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "problem/problem_file.h"
+#include "run_results.h"
+
+namespace nscdd {
+
+void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
+  const ProblemFile file = ReadProblemFile(problem);
+  SolverRegistry registry;
+  registry.Add(FindPlugin(request.plugin));
+  Scene scene;  // the command line alone chooses
+  scene.file = problem;
+  scene.time.theta = file.theta;
+  const SolverChoice choice = ChooseSolver(scene, request, registry);
+  Solver solver = registry.Create({choice.name, choice.options, nullptr, {}});
+  const ContactSolution solution = solver.Solve(file.problem);
+
+  StepReport report;
+  report.solve = solution.report;
+  const StepRow row = MakeStepRow(report);
+  nlohmann::ordered_json json;
+  json["solver"] = choice.name;
+  json["status"] = row.status;
+  json["reason"] = row.reason;
+  json["iterations"] = row.iterations;
+  json["sweeps"] = row.sweeps;
+  json["nat"] = row.nat;
+  json["nat_max"] = row.nat_max;
+  json["qm16"] = row.qm16;
+  json["interface_jump"] = row.interface_jump;
+  for (const char* key : {"V_end", "r", "v"}) json[key] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < file.body_count; ++i) {
+    const Twist& v = solution.velocity[i];
+    for (const double number : {v.vx, v.vy, v.spin}) json["V_end"].push_back(number);
+  }
+  for (std::size_t c = 0; c < solution.impulse.size(); ++c) {
+    for (const double number : {solution.impulse[c].x, solution.impulse[c].y}) json["r"].push_back(number);
+    for (const double number : {solution.relative_velocity[c].x, solution.relative_velocity[c].y}) json["v"].push_back(number);
+  }
+  fmt::print("{}\n", json.dump(1));
+}
+
+}  // namespace nscdd

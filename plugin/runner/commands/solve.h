@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+#include "solver_settings.h"
+
+namespace nscdd {
+
+/// `nscdd solve`: solves one problem file and prints the solution as JSON. Throws Error on bad input.
+void Solve(const std::filesystem::path& problem, const SolverRequest& request);
+
+}  // namespace nscdd

@@ -1,0 +1,178 @@
+// The program `nscdd`. Exit codes: 0 fine; 2 bad input; 3 stopped because a step did not converge and the scene says to stop;
+// 1 anything that no input should cause.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "commands/check.h"
+#include "commands/run.h"
+#include "commands/solve.h"
+#include "commands/solvers.h"
+#include "mpi_session.h"
+#include "nscdd/error.h"
+#include "nscdd/host/validator.h"
+#include "render/render.h"
+
+namespace {
+
+using namespace nscdd;
+
+/// An option whose text goes to the solver under `name`.
+void AddSolverOption(CLI::App* command, SolverRequest* request, const std::string& flag, const std::string& name,
+                     const std::string& help) {
+  command->add_option_function<std::string>(flag, [request, name](const std::string& value) {
+    request->options.emplace_back(name, value);
+  }, help);
+}
+
+void AddSolverOptions(CLI::App* command, SolverRequest* request) {
+  command->add_option("--solver", request->solver, "Solver: see `nscdd solvers`");
+  command->add_option("--plugin", request->plugin, "Solver plugin (default: $NSCDD_PLUGIN, else the one beside this program)");
+  AddSolverOption(command, request, "--subdomains", "subdomains", "Grid of subdomains, NXxNY (nscdd)");
+  AddSolverOption(command, request, "--tolerance", "tolerance", "Tolerance of the criterion");
+  AddSolverOption(command, request, "--criterion", "criterion", "nat, nat_max, quad, maxm or qm16");
+  AddSolverOption(command, request, "--max-iterations", "max_iterations", "Sweeps, or interface updates, at most");
+  AddSolverOption(command, request, "--test-every", "test_every", "Iterations between two tests of the criterion");
+  AddSolverOption(command, request, "--sweeps-per-stage", "sweeps_per_stage", "Sweeps per interface update (nscdd)");
+  command->add_option_function<std::vector<std::string>>("--option", [request](const std::vector<std::string>& pairs) {
+    for (const std::string& pair : pairs) {
+      const auto equals = pair.find('=');
+      if (equals == std::string::npos) throw CLI::ValidationError("--option", "write NAME=VALUE, not '" + pair + "'");
+      request->options.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+    }
+  }, "Any other option of the solver, NAME=VALUE; may be repeated");
+}
+
+class Program {
+ public:
+  explicit Program(const MpiSession& session) : session_(session) {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", "nscdd " NSCDD_VERSION);
+    app_.footer("Exit codes: 0 fine, 2 bad input, 3 stopped at a step that did not converge (on_nonconvergence = \"stop\").");
+    AddRun();
+    AddCheck();
+    AddSolvers();
+    AddSolve();
+    AddRender();
+    AddValidate();
+  }
+
+  int Main(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      const bool help = e.get_exit_code() == 0;
+      if (session_.ranks().is_root()) app_.exit(e);
+      return help ? 0 : 2;
+    }
+    return action_();
+  }
+
+ private:
+  /// Commands other than run work on one rank.
+  void OnRoot(CLI::App* command, std::function<int()> work) {
+    command->callback([this, work] {
+      action_ = [this, work] {
+        int code = 0;
+        session_.ranks().RunOnRoot([&] { code = work(); });
+        return code;
+      };
+    });
+  }
+
+  void AddRun() {
+    CLI::App* run = app_.add_subcommand("run", "Solve a scene step by step (also under mpirun)");
+    run->add_option("scene", run_.scene, "Scene file (TOML)")->required();
+    AddSolverOptions(run, &run_.solver);
+    run->add_flag_callback("--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); },
+                           "Begin every step from zero impulses");
+    run->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
+    run->add_option("--steps", run_.steps, "Number of steps")->check(CLI::PositiveNumber);
+    run->add_option("--save-every", run_.save_every, "Save every K-th step in results.h5 (default: first and last)")
+        ->check(CLI::PositiveNumber);
+    run->add_option("--out", run_.out, "Folder of the results (default: results/SCENE)");
+    run->add_flag("--quiet", run_.quiet, "Print nothing but errors");
+    run->callback([this] { action_ = [this] { return Run(run_, session_); }; });
+  }
+
+  void AddCheck() {
+    CLI::App* check = app_.add_subcommand("check", "Read and build a scene without solving it");
+    check->add_option("scene", run_.scene, "Scene file (TOML)")->required();
+    check->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
+    AddSolverOptions(check, &run_.solver);
+    OnRoot(check, [this] {
+      Check(run_.scene, run_.adapter, run_.solver);
+      return 0;
+    });
+  }
+
+  void AddSolvers() {
+    CLI::App* solvers = app_.add_subcommand("solvers", "List the solvers with their options, units and defaults");
+    solvers->add_option("--plugin", run_.solver.plugin, "Solver plugin");
+    OnRoot(solvers, [this] {
+      ListSolvers(run_.solver.plugin);
+      return 0;
+    });
+  }
+
+  void AddSolve() {
+    CLI::App* solve = app_.add_subcommand("solve", "Solve one contact problem (JSON) and print its solution (JSON)");
+    solve->add_option("problem", run_.scene, "Problem file")->required();
+    AddSolverOptions(solve, &run_.solver);
+    OnRoot(solve, [this] {
+      Solve(run_.scene, run_.solver);
+      return 0;
+    });
+  }
+
+  void AddRender() {
+    CLI::App* render = app_.add_subcommand("render", "Draw a saved step of a run");
+    render->add_option("folder", render_.folder, "Folder of the results")->required();
+    render->add_option("--step", render_.step, "Step (default: the last one saved)");
+    render->add_option("--show", show_, "grains, forces, multiplicity or overlap")->capture_default_str();
+    render->add_option("-o,--output", render_.output, "Picture, .png or .svg (default: FOLDER/SHOW_STEP.png)");
+    OnRoot(render, [this] {
+      render_.show = ParseShow(show_);
+      const RenderedPicture picture = Render(render_);
+      fmt::print("{} (step {}, {} x {})\n", picture.file.string(), picture.step, picture.width, picture.height);
+      return 0;
+    });
+  }
+
+  void AddValidate() {
+    CLI::App* validate = app_.add_subcommand("validate-plugin", "Check a solver plugin, each check in a process of its own");
+    validate->add_option("file", validated_, "Shared library")->required();
+    OnRoot(validate, [this] {
+      ValidatorOptions options;
+      options.print = [](const std::string& line) { fmt::print("{}\n", line); };
+      const int failed = ValidatePlugin(validated_, options);
+      fmt::print("{}\n", failed == 0 ? "The plugin is valid." : fmt::format("{} checks failed.", failed));
+      return failed == 0 ? 0 : 2;
+    });
+  }
+
+  const MpiSession& session_;
+  CLI::App app_{"nscdd: contact dynamics of dense packings of disks, by domain decomposition"};
+  RunRequest run_;
+  RenderRequest render_;
+  std::string show_ = "forces";
+  std::string validated_;
+  std::function<int()> action_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const MpiSession session(&argc, &argv);
+  try {
+    return Program(session).Main(argc, argv);
+  } catch (const Error& e) {  // the same on all ranks
+    if (session.ranks().is_root()) fmt::print(stderr, "nscdd: {}\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "nscdd: rank {}: unexpected: {}\n", session.ranks().rank(), e.what());
+    session.Abort(1);
+  }
+}

@@ -1,0 +1,163 @@
+#include "run_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace nscdd {
+namespace {
+
+const char* StatusName(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kStalled:
+      return "stalled";
+    case SolveStatus::kDiverged:
+      break;
+  }
+  return "diverged";
+}
+
+template <class T>
+void Copy(const TableView& table, const char* name, std::vector<T>* column) {
+  if constexpr (std::is_same_v<T, double>) {
+    const auto values = table.Real(name);
+    column->assign(values.begin(), values.end());
+  } else {
+    for (const std::int64_t value : table.Integer(name)) column->push_back(static_cast<T>(value));
+  }
+}
+
+}  // namespace
+
+StepRow MakeStepRow(const StepReport& s) {
+  const SolveReport& solve = s.solve;
+  const Residuals& r = solve.residuals;
+  StepRow row;
+  row.step = s.step;
+  row.time = s.time;
+  row.contacts = solve.contacts;
+  row.active = solve.active;
+  row.iterations = solve.iterations;
+  row.status = StatusName(solve.status);
+  row.reason = solve.reason;
+  row.nat = r.nat;
+  row.nat_max = r.nat_max;
+  row.qm16 = r.qm16;
+  row.quad = r.quad;
+  row.maxm = r.maxm;
+  row.interface_jump = r.interface_jump;
+  row.relative_jump = r.relative_jump;
+  row.mean_interpenetration = s.mean_interpenetration;
+  row.max_interpenetration = s.max_interpenetration;
+  row.kinetic_energy = s.kinetic_energy;
+  row.momentum_x = s.momentum_x;
+  row.momentum_y = s.momentum_y;
+  row.seconds_detect = s.seconds_detect;
+  row.seconds_solve = s.seconds_solve;
+  row.seconds_communicate = s.seconds_communicate;
+  row.seconds_total = s.seconds_total;
+  row.sweeps = solve.sweeps;
+  row.sticking = solve.sticking;
+  row.bodies = s.bodies;
+  row.interface_bodies = solve.interface_bodies;
+  row.interface_copies = solve.interface_copies;
+  row.max_multiplicity = solve.max_multiplicity;
+  row.empty_subdomains = solve.empty_subdomains;
+  row.painleve_contacts = solve.painleve_contacts;
+  row.injected_energy = s.injected_energy;
+  row.max_drift = s.max_drift;
+  row.alert_distance = s.alert_distance;
+  row.mean_radius = s.mean_radius;
+  if (solve.contacts > 0) {
+    row.worst_body_a = r.worst.body_a;
+    row.worst_body_b = r.worst.body_b;
+  }
+  row.migrated_bodies = s.migrated_bodies;
+  row.messages = s.messages;
+  row.message_bytes = s.message_bytes;
+  row.collectives = s.collectives;
+  return row;
+}
+
+GrainTable MakeGrainTable(const Solver& solver) {
+  const TableView t = solver.Table("bodies");
+  GrainTable g;
+  Copy(t, "id", &g.id);
+  Copy(t, "x", &g.x);
+  Copy(t, "y", &g.y);
+  Copy(t, "angle", &g.angle);
+  Copy(t, "vx", &g.vx);
+  Copy(t, "vy", &g.vy);
+  Copy(t, "spin", &g.spin);
+  Copy(t, "radius", &g.radius);
+  Copy(t, "multiplicity", &g.multiplicity);
+  Copy(t, "subdomain", &g.subdomain);
+  Copy(t, "kind", &g.kind);
+  return g;
+}
+
+ContactRows MakeContactRows(const Solver& solver) {
+  const TableView t = solver.Table("contacts");
+  ContactRows c;
+  Copy(t, "body_a", &c.body_a);
+  Copy(t, "body_b", &c.body_b);
+  Copy(t, "shape_a", &c.shape_a);
+  Copy(t, "shape_b", &c.shape_b);
+  Copy(t, "image", &c.image);
+  Copy(t, "gap", &c.gap);
+  Copy(t, "final_gap", &c.final_gap);
+  Copy(t, "normal_x", &c.normal_x);
+  Copy(t, "normal_y", &c.normal_y);
+  Copy(t, "point_x", &c.point_x);
+  Copy(t, "point_y", &c.point_y);
+  Copy(t, "impulse_n", &c.impulse_n);
+  Copy(t, "impulse_t", &c.impulse_t);
+  Copy(t, "velocity_n", &c.velocity_n);
+  Copy(t, "velocity_t", &c.velocity_t);
+  Copy(t, "status", &c.status);
+  Copy(t, "subdomain", &c.subdomain);
+  return c;
+}
+
+void AddShapes(const BodyDefinition& body, ShapeTable* shapes) {
+  const auto add = [&](ShapeKind kind, Vec2 from, Vec2 to, double radius) {
+    shapes->body.push_back(body.id);
+    shapes->kind.push_back(kind);
+    shapes->x0.push_back(from.x);
+    shapes->y0.push_back(from.y);
+    shapes->x1.push_back(to.x);
+    shapes->y1.push_back(to.y);
+    shapes->radius.push_back(radius);
+  };
+  const bool plain = body.disks.size() == 1 && body.segments.empty() && body.half_planes.empty() &&
+                     body.disks[0].centre.x == 0.0 && body.disks[0].centre.y == 0.0;
+  if (plain) return;
+  for (const auto& disk : body.disks) add(ShapeKind::kDisk, disk.centre, {}, disk.radius);
+  for (const auto& segment : body.segments) add(ShapeKind::kSegment, segment.a, segment.b, 0.0);
+  for (const auto& plane : body.half_planes) {
+    // The free side is to the left of the direction, so the normal is the direction turned by a quarter.
+    const Vec2 through = plane.offset * plane.normal, direction{plane.normal.y, -plane.normal.x};
+    add(ShapeKind::kHalfPlane, through, through + direction, 0.0);
+  }
+}
+
+DeepContacts FindDeepContacts(const Solver& solver, double depth) {
+  const TableView t = solver.Table("contacts");
+  const auto gap = t.Real("gap");
+  DeepContacts deep;
+  for (std::size_t c = 0; c < gap.size(); ++c) {
+    if (-gap[c] <= depth) continue;
+    ++deep.count;
+    if (-gap[c] <= deep.deepest) continue;
+    deep.deepest = -gap[c];
+    deep.body_a = t.Integer("body_a")[c];
+    deep.body_b = t.Integer("body_b")[c];
+  }
+  return deep;
+}
+
+}  // namespace nscdd

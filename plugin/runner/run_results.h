@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "nscdd/host/solver.h"
+#include "results/result_tables.h"
+#include "results/step_row.h"
+#include "scene/body_stream.h"
+
+namespace nscdd {
+
+StepRow MakeStepRow(const StepReport& report);
+
+/// This rank's bodies and contacts after the last step, from the plugin's tables.
+GrainTable MakeGrainTable(const Solver& solver);
+ContactRows MakeContactRows(const Solver& solver);
+
+/// Adds the shapes of a body that is more than one centred disk.
+void AddShapes(const BodyDefinition& body, ShapeTable* shapes);
+
+/// Contacts of this rank that were deeper than `depth` [m] at the detection, and the deepest of them.
+struct DeepContacts {
+  std::int64_t count = 0;
+  double deepest = 0.0;  ///< [m]
+  std::int64_t body_a = -1, body_b = -1;
+};
+DeepContacts FindDeepContacts(const Solver& solver, double depth);
+
+}  // namespace nscdd

@@ -1,0 +1,106 @@
+#include "solver_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nscdd/error.h"
+#include "scene/names.h"
+
+namespace nscdd {
+namespace {
+
+const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::string& name) {
+  const auto* end = solver.options + solver.option_count;
+  const auto* at = std::find_if(solver.options, end, [&](const nscdd_option& o) { return name == o.name; });
+  return at == end ? nullptr : at;
+}
+
+bool AnySolverHas(const SolverRegistry& registry, const std::string& option) {
+  const auto& all = registry.entries();
+  return std::any_of(all.begin(), all.end(), [&](const auto& entry) { return FindOption(*entry.info, option) != nullptr; });
+}
+
+/// Solvers that have an option, for the mend in a sentence.
+std::string SolversWith(const SolverRegistry& registry, const std::string& option) {
+  std::string names;
+  for (const auto& entry : registry.entries()) {
+    if (FindOption(*entry.info, option) == nullptr) continue;
+    if (!names.empty()) names += ", ";
+    names += entry.info->name;
+  }
+  return names;
+}
+
+[[noreturn]] void RefuseUnknown(const SolverRegistry& registry, const nscdd_solver_info& solver, const std::string& where,
+                                const std::string& name) {
+  if (AnySolverHas(registry, name)) {
+    throw Error(fmt::format("{}solver '{}' has no option '{}'; choose solver {} or leave it out", where, solver.name, name,
+                            SolversWith(registry, name)));
+  }
+  std::vector<std::string> known;
+  for (std::uint64_t i = 0; i < solver.option_count; ++i) known.emplace_back(solver.options[i].name);
+  throw Error(fmt::format("{}unknown option '{}' of solver '{}'; {}", where, name, solver.name, Suggestion(name, known, "options")));
+}
+
+/// Lets the solver itself judge one option.
+void CheckValue(const SolverRegistry& registry, const std::string& solver, const std::string& where, const std::string& name,
+                const std::string& value) {
+  try {
+    registry.Create({solver, {{name, value}}, nullptr, {}});
+  } catch (const Error& e) {
+    throw Error(where + e.what());
+  }
+}
+
+void Set(OptionList* options, const std::string& name, const std::string& value) {
+  for (auto& option : *options) {
+    if (option.first == name) {
+      option.second = value;
+      return;
+    }
+  }
+  options->emplace_back(name, value);
+}
+
+}  // namespace
+
+SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry) {
+  SolverChoice choice;
+  const std::string file = scene.file.string();
+  const bool from_scene = request.solver.empty();
+  choice.name = from_scene ? scene.solver.name : request.solver;
+  const nscdd_solver_info* solver = nullptr;
+  try {
+    solver = registry.Find(choice.name).info;
+  } catch (const Error& e) {
+    throw Error(from_scene ? fmt::format("{}:{}: key 'solver.name': {}", file, scene.solver.line, e.what())
+                           : fmt::format("--solver: {}", e.what()));
+  }
+  choice.options.emplace_back("theta", fmt::format("{}", scene.time.theta));
+  for (const SolverOption& option : scene.solver.options) {
+    const std::string where = fmt::format("{}:{}: key 'solver.{}': ", file, option.line, option.key);
+    if (FindOption(*solver, option.key) == nullptr) {
+      if (!from_scene && AnySolverHas(registry, option.key)) continue;
+      RefuseUnknown(registry, *solver, where, option.key);
+    }
+    CheckValue(registry, choice.name, where, option.key, option.text);
+    Set(&choice.options, option.key, option.text);
+  }
+  for (const auto& [name, value] : request.options) {
+    if (FindOption(*solver, name) == nullptr) RefuseUnknown(registry, *solver, "command line: ", name);
+    CheckValue(registry, choice.name, "command line: ", name, value);
+    Set(&choice.options, name, value);
+  }
+  return choice;
+}
+
+std::string OptionValue(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name) {
+  for (const auto& [key, value] : choice.options) {
+    if (key == name) return value;
+  }
+  const nscdd_option* option = FindOption(*registry.Find(choice.name).info, name);
+  return option ? option->default_value : "";
+}
+
+}  // namespace nscdd

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nscdd/host/solver_registry.h"
+#include "scene/scene.h"
+
+namespace nscdd {
+
+/// Options of a solver as text, in the order in which they are passed on.
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
+/// What the command line says about the solver; empty strings and lists: nothing.
+struct SolverRequest {
+  std::string plugin;   ///< path of the library
+  std::string solver;   ///< name
+  OptionList options;   ///< override the scene's
+};
+
+/// Which solver a run uses, and how.
+struct SolverChoice {
+  std::string name;
+  OptionList options;
+};
+
+/// Joins what the scene and the command line ask for. Options of the scene that the solver chosen on the command line does not
+/// have are left out if another solver has them. Throws Error, with file and line for the scene's, on unknown solvers and
+/// options and on values that the solver refuses.
+SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry);
+
+/// Value of an option: the chosen one, or its default.
+std::string OptionValue(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name);
+
+}  // namespace nscdd
