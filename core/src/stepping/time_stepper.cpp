@@ -37,7 +37,7 @@ void Require(bool holds, const std::string& sentence) {
 }
 
 void CheckStopping(const StoppingOptions& o) {
-  Require(o.tolerance > 0.0, fmt::format("tolerance is {}; it must be positive", o.tolerance));
+  Require(o.tolerance >= 0.0, fmt::format("tolerance is {}; it must not be negative", o.tolerance));
   Require(o.max_iterations >= 1, fmt::format("max_iterations is {}; it must be at least 1", o.max_iterations));
   Require(o.test_every >= 1, fmt::format("test_every is {}; it must be at least 1", o.test_every));
   Require(o.stall_iterations >= 1, fmt::format("stall_iterations is {}; it must be at least 1", o.stall_iterations));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -135,6 +136,8 @@ void AddContacts(const Reader& file, std::size_t bodies, double mu, const Start&
     t.lever_b.push_back(row[5]);
     t.lever_a.push_back(row[6]);
     t.friction.push_back(mu);
+    t.restitution.push_back(0.0);  // is in b_n already
+    t.flat.push_back(0);
     const Vec2 centre = Centre(start.pose[b]);
     const bool plane = a >= static_cast<std::int32_t>(bodies);
     t.site.push_back(plane ? centre - row[5] * n : 0.5 * (centre + Centre(start.pose[a])));

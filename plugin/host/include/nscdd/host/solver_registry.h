@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nscdd/host/plugin_library.h"
+#include "nscdd/host/solver.h"
+
+namespace nscdd {
+
+/// The solvers of several plugins, by name.
+class SolverRegistry {
+ public:
+  struct Entry {
+    std::shared_ptr<const PluginLibrary> library;
+    const nscdd_solver_info* info;
+  };
+
+  /// Loads `path` and adds its solvers. Throws Error as PluginLibrary::Load does, and when one of its solvers has the name of
+  /// one that is there already; nothing is added then.
+  void Add(const std::string& path);
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// Throws Error with the names that exist.
+  const Entry& Find(const std::string& solver) const;
+  /// Makes a handle of arguments.solver.
+  Solver Create(const SolverArguments& arguments) const;
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace nscdd

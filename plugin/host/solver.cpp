@@ -1,0 +1,214 @@
+#include "nscdd/host/solver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "layout.h"
+#include "nscdd/error.h"
+
+namespace nscdd {
+namespace {
+
+constexpr std::size_t kSentenceSize = 4096;
+
+SolveReport SolvePart(const nscdd_report& r) {
+  SolveReport solve;
+  solve.status = static_cast<SolveStatus>(r.status);
+  if (r.reason != nullptr) solve.reason = r.reason;
+  solve.residuals = {r.nat, r.nat_max, r.quad, r.maxm, r.qm16, r.interface_jump, r.relative_jump, {}};
+  solve.residuals.worst.body_a = r.worst_body_a;
+  solve.residuals.worst.body_b = r.worst_body_b;
+  solve.iterations = static_cast<int>(r.iterations);
+  solve.sweeps = r.sweeps;
+  solve.contacts = r.contacts;
+  solve.active = r.active;
+  solve.sticking = r.sticking;
+  solve.subdomains = r.subdomains;
+  solve.empty_subdomains = r.empty_subdomains;
+  solve.interface_bodies = r.interface_bodies;
+  solve.interface_copies = r.interface_copies;
+  solve.max_multiplicity = static_cast<int>(r.max_multiplicity);
+  solve.unknowns_per_contact = static_cast<int>(r.unknowns_per_contact);
+  solve.unknowns_per_body = static_cast<int>(r.unknowns_per_body);
+  solve.bytes_per_contact = static_cast<int>(r.bytes_per_contact);
+  solve.bytes_per_body = static_cast<int>(r.bytes_per_body);
+  solve.painleve_contacts = static_cast<int>(r.painleve_contacts);
+  return solve;
+}
+
+StepReport Translate(const nscdd_report& r) {
+  StepReport report;
+  report.solve = SolvePart(r);
+  report.step = r.step;
+  report.time = r.time;
+  report.bodies = r.bodies;
+  report.mean_interpenetration = r.mean_interpenetration;
+  report.max_interpenetration = r.max_interpenetration;
+  report.mean_radius = r.mean_radius;
+  report.kinetic_energy = r.kinetic_energy;
+  report.momentum_x = r.momentum_x;
+  report.momentum_y = r.momentum_y;
+  report.injected_energy = r.injected_energy;
+  report.max_drift = r.max_drift;
+  report.alert_distance = r.alert_distance;
+  report.migrated_bodies = r.migrated_bodies;
+  report.messages = r.messages;
+  report.message_bytes = r.message_bytes;
+  report.collectives = r.collectives;
+  report.seconds_detect = r.seconds_detect;
+  report.seconds_solve = r.seconds_solve;
+  report.seconds_communicate = r.seconds_communicate;
+  report.seconds_total = r.seconds_total;
+  return report;
+}
+
+const nscdd_solver_info* FindInfo(const PluginLibrary& library, const std::string& name) {
+  const nscdd_solver_info* info = library.FindSolver(name);
+  if (info != nullptr) return info;
+  std::vector<std::string> names;
+  for (std::uint64_t i = 0; i < library.plugin().solver_count; ++i) names.emplace_back(library.plugin().solvers[i].name);
+  throw Error(fmt::format("plugin '{}' has no solver '{}'; it has {}", library.path(), name, fmt::join(names, ", ")));
+}
+
+std::vector<IterationRecord> History(const TableView& table) {
+  std::vector<IterationRecord> history(table.rows());
+  const auto iteration = table.Integer("iteration");
+  const auto nat = table.Real("nat"), nat_max = table.Real("nat_max");
+  const auto qm16 = table.Real("qm16"), jump = table.Real("interface_jump");
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    history[i] = {static_cast<int>(iteration[i]), nat[i], nat_max[i], qm16[i], jump[i]};
+  }
+  return history;
+}
+
+void CheckSizes(const ContactProblem& p, const std::vector<Vec2>& warm) {
+  const std::size_t bodies = p.mass.size(), contacts = p.contacts.size();
+  const bool right = p.inertia.size() == bodies && p.free_velocity.size() == bodies && p.impulse.size() == bodies &&
+                     p.offset.size() == contacts && (warm.empty() || warm.size() == contacts);
+  if (!right) throw Error("contact problem: the columns of bodies or contacts differ in length; fill one entry per row");
+  if (!p.subdomain.empty()) throw Error("contact problem: leave `subdomain` empty; the solver places contacts by their sites");
+}
+
+}  // namespace
+
+TableView::TableView(std::string name, const nscdd_table& table) : name_(std::move(name)), rows_(table.row_count) {
+  for (std::uint64_t i = 0; i < table.column_count; ++i) {
+    const nscdd_column& column = table.columns[i];
+    TableColumn& view = columns_.emplace_back(TableColumn{column.name, column.unit, {}, {}});
+    if (column.is_integer != 0) {
+      view.integer = {static_cast<const std::int64_t*>(column.values), rows_};
+    } else {
+      view.real = {static_cast<const double*>(column.values), rows_};
+    }
+  }
+}
+
+const TableColumn& TableView::Find(const std::string& column) const {
+  for (const TableColumn& c : columns_) {
+    if (c.name == column) return c;
+  }
+  throw Error(fmt::format("table '{}' has no column '{}'; load the plugin that this program was built with", name_, column));
+}
+
+std::span<const std::int64_t> TableView::Integer(const std::string& column) const {
+  const TableColumn& c = Find(column);
+  if (c.integer.size() != rows_) throw Error(fmt::format("table '{}': column '{}' is real, not integer", name_, column));
+  return c.integer;
+}
+
+std::span<const double> TableView::Real(const std::string& column) const {
+  const TableColumn& c = Find(column);
+  if (c.real.size() != rows_) throw Error(fmt::format("table '{}': column '{}' is integer, not real", name_, column));
+  return c.real;
+}
+
+Solver::Solver(std::shared_ptr<const PluginLibrary> library, const SolverArguments& arguments)
+    : library_(std::move(library)),
+      info_(FindInfo(*library_, arguments.solver)),
+      handle_(nullptr, Destroy{&library_->plugin()}) {
+  std::vector<const char*> names, values;
+  for (const auto& [name, value] : arguments.options) {
+    names.push_back(name.c_str());
+    values.push_back(value.c_str());
+  }
+  auto create = WithHeader<nscdd_create_arguments>();
+  create.host = arguments.host;
+  create.distributed = arguments.communicator ? 1 : 0;
+  create.communicator = arguments.communicator.value_or(0);
+  create.solver = arguments.solver.c_str();
+  create.option_count = names.size();
+  create.option_names = names.data();
+  create.option_values = values.data();
+  std::array<char, kSentenceSize> sentence{};
+  nscdd_solver* handle = nullptr;
+  const std::int32_t result = library_->plugin().create(&create, &handle, sentence.data(), sentence.size());
+  handle_.reset(handle);
+  if (result == NSCDD_OK && handle != nullptr) return;
+  sentence.back() = '\0';
+  throw Error(sentence[0] != '\0'
+                  ? std::string(sentence.data())
+                  : fmt::format("plugin '{}': create failed without a sentence (result {})", library_->path(), result));
+}
+
+void Solver::Check(const char* function, std::int32_t result) const {
+  if (result == NSCDD_OK) return;
+  const char* sentence = library_->plugin().last_error(handle_.get());
+  if (sentence != nullptr && *sentence != '\0') throw Error(sentence);
+  throw Error(fmt::format("plugin '{}': {} failed without a sentence (result {})", library_->path(), function, result));
+}
+
+void Solver::Step(double dt) { Check("step", library_->plugin().step(handle_.get(), dt)); }
+
+ContactSolution Solver::Solve(const ContactProblem& problem, const std::vector<Vec2>& warm) {
+  CheckSizes(problem, warm);
+  auto given = WithHeader<nscdd_problem>();
+  given.body_count = problem.mass.size();
+  given.mass = problem.mass.data();
+  given.inertia = problem.inertia.data();
+  given.free_velocity = AsDoubles(problem.free_velocity.data());
+  given.impulse = AsDoubles(problem.impulse.data());
+  given.contacts = ShowContacts(problem.contacts);
+  given.offset = problem.offset.data();
+  given.warm_impulse = warm.empty() ? nullptr : AsDoubles(warm.data());
+  given.approach_speed = problem.approach_speed;
+  ContactSolution solution;
+  solution.velocity.resize(problem.mass.size());
+  solution.impulse.resize(problem.contacts.size());
+  solution.relative_velocity.resize(problem.contacts.size());
+  auto target = WithHeader<nscdd_solution>();
+  target.velocity = AsDoubles(solution.velocity.data());
+  target.impulse = AsDoubles(solution.impulse.data());
+  target.relative_velocity = AsDoubles(solution.relative_velocity.data());
+  Check("solve", library_->plugin().solve(handle_.get(), &given, &target));
+  solution.report = Report().solve;
+  solution.report.history = History(Table("iterations"));
+  return solution;
+}
+
+StepReport Solver::Report() const {
+  auto report = WithHeader<nscdd_report>();
+  Check("report", library_->plugin().report(handle_.get(), &report));
+  return Translate(report);
+}
+
+TableView Solver::Table(const std::string& name) const {
+  auto table = WithHeader<nscdd_table>();
+  Check("table", library_->plugin().table(handle_.get(), name.c_str(), &table));
+  return TableView(name, table);
+}
+
+std::vector<std::byte> Solver::SaveState() const {
+  std::uint64_t size = 0;
+  Check("state_size", library_->plugin().state_size(handle_.get(), &size));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  Check("save_state", library_->plugin().save_state(handle_.get(), bytes.data(), size));
+  return bytes;
+}
+
+void Solver::LoadState(std::span<const std::byte> bytes) {
+  Check("load_state", library_->plugin().load_state(handle_.get(), bytes.data(), bytes.size()));
+}
+
+}  // namespace nscdd

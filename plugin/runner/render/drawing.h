@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "nscdd/vector.h"
+#include "results/result_tables.h"
+
+namespace nscdd {
+
+/// A disk of a body, where it is in the world.
+struct PlacedDisk {
+  std::size_t grain;  ///< row in Drawing::grains
+  Vec2 centre;
+  double radius;
+};
+
+/// A segment, or the border of a half-plane, of a body.
+struct PlacedLine {
+  std::size_t grain;
+  Vec2 from;
+  Vec2 to;
+  bool is_half_plane;  ///< endless, solid to its right
+};
+
+/// A contact from the centre of A's disk to the centre of B's (the point of contact, on a side without disk).
+struct PlacedContact {
+  Vec2 from;
+  Vec2 to;
+  double impulse;  ///< normal [N s]
+  double overlap;  ///< max(0, -final_gap) [m]
+};
+
+/// Rectangle in the world [m].
+struct Box {
+  Vec2 low{1e300, 1e300};
+  Vec2 high{-1e300, -1e300};
+
+  double width() const { return high.x - low.x; }
+  double height() const { return high.y - low.y; }
+  bool is_empty() const { return high.x < low.x; }
+  void Include(Vec2 point, double around);
+};
+
+/// A saved step in world coordinates, ready to be drawn.
+struct Drawing {
+  RunDescription run;
+  StepDescription step;
+  GrainTable grains;              ///< by ascending id
+  std::vector<PlacedDisk> disks;  ///< by grain
+  std::vector<PlacedLine> lines;
+  std::vector<PlacedContact> contacts;
+  Box box;  ///< what the picture shows
+
+  bool IsFree(std::size_t grain) const { return grains.kind[grain] == 0; }
+  double Speed(std::size_t grain) const { return Norm({grains.vx[grain], grains.vy[grain]}); }
+};
+
+/// Reads a saved step, by default the last one. Throws Error as ResultsReader does, and when no step was saved.
+Drawing ReadDrawing(const std::filesystem::path& folder, std::optional<std::int64_t> step);
+
+}  // namespace nscdd

@@ -1,0 +1,137 @@
+#include "results/hdf5_file.h"
+
+#include <memory>
+
+#include "nscdd/error.h"
+
+namespace nscdd {
+namespace {
+
+Hdf5Handle TextType() {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  CheckHdf5(H5Tset_size(type.id(), H5T_VARIABLE), "make a text type");
+  CheckHdf5(H5Tset_cset(type.id(), H5T_CSET_UTF8), "make a text type");
+  return type;
+}
+
+}  // namespace
+
+RowRange::RowRange(const RankGroup& ranks, std::size_t rows)
+    : first(static_cast<hsize_t>(ranks.SumOfLowerRanks(static_cast<std::int64_t>(rows)))),
+      count(rows),
+      total(static_cast<hsize_t>(ranks.Sum(static_cast<std::int64_t>(rows)))) {}
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, bool parallel) : path_(path), parallel_(parallel) {}
+
+Hdf5File Hdf5File::Create(const std::filesystem::path& path, const RankGroup& ranks) {
+  Hdf5File file(path, !ranks.is_serial());
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file.Writing());
+  if (file.parallel_) CheckHdf5(H5Pset_fapl_mpio(access.id(), ranks.communicator(), MPI_INFO_NULL), file.Writing());
+  file.file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, file.Writing());
+  return file;
+}
+
+Hdf5File Hdf5File::Open(const std::filesystem::path& path) {
+  Hdf5File file(path, false);
+  file.file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "read " + path.string());
+  return file;
+}
+
+Hdf5Handle Hdf5File::CreateGroup(const std::string& name) {
+  return {H5Gcreate2(file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, Writing()};
+}
+
+Hdf5Handle Hdf5File::OpenGroup(const std::string& name) const {
+  return {H5Gopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Gclose, Reading(name)};
+}
+
+std::vector<std::string> Hdf5File::Names(const Hdf5Handle& group) const {
+  std::vector<std::string> names;
+  const auto append = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  CheckHdf5(H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, append, &names), Reading("the list of steps"));
+  return names;
+}
+
+void Hdf5File::WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
+                           const RowRange& rows) {
+  const Hdf5Handle space(H5Screate_simple(1, &rows.total, nullptr), H5Sclose, Writing());
+  const Hdf5Handle column(H5Dcreate2(group.id(), name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                          Writing());
+  if (*unit != '\0') WriteAttribute(column, "unit", unit);
+  if (rows.total == 0) return;
+
+  const Hdf5Handle memory(H5Screate_simple(1, &rows.count, nullptr), H5Sclose, Writing());
+  const Hdf5Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, Writing());
+  if (parallel_) CheckHdf5(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), Writing());
+  if (rows.count == 0) {
+    CheckHdf5(H5Sselect_none(space.id()), Writing());
+  } else {
+    CheckHdf5(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &rows.first, nullptr, &rows.count, nullptr), Writing());
+  }
+  CheckHdf5(H5Dwrite(column.id(), type, memory.id(), space.id(), transfer.id(), data), Writing());
+}
+
+Hdf5Handle Hdf5File::OpenColumn(const Hdf5Handle& group, const char* name) const {
+  return {H5Dopen2(group.id(), name, H5P_DEFAULT), H5Dclose, Reading(name)};
+}
+
+std::size_t Hdf5File::RowsOf(const Hdf5Handle& column) const {
+  const Hdf5Handle space(H5Dget_space(column.id()), H5Sclose, Reading("a column"));
+  return static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id()));
+}
+
+void Hdf5File::Read(const Hdf5Handle& column, hid_t type, void* data) const {
+  CheckHdf5(H5Dread(column.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), Reading("a column"));
+}
+
+void Hdf5File::WriteScalar(const Hdf5Handle& object, const char* name, hid_t type, const void* value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, Writing());
+  const Hdf5Handle attribute(H5Acreate2(object.id(), name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, Writing());
+  CheckHdf5(H5Awrite(attribute.id(), type, value), Writing());
+}
+
+void Hdf5File::ReadScalar(const Hdf5Handle& object, const char* name, hid_t type, void* value) const {
+  const Hdf5Handle attribute(H5Aopen(object.id(), name, H5P_DEFAULT), H5Aclose, Reading(name));
+  CheckHdf5(H5Aread(attribute.id(), type, value), Reading(name));
+}
+
+void Hdf5File::WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text) {
+  const char* characters = text.c_str();
+  WriteScalar(object, name, TextType().id(), &characters);
+}
+
+void Hdf5File::WriteAttribute(const Hdf5Handle& object, const char* name, double value) {
+  WriteScalar(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::WriteAttribute(const Hdf5Handle& object, const char* name, std::int64_t value) {
+  WriteScalar(object, name, H5T_NATIVE_INT64, &value);
+}
+
+std::string Hdf5File::ReadText(const Hdf5Handle& object, const char* name) const {
+  char* characters = nullptr;
+  ReadScalar(object, name, TextType().id(), &characters);
+  const std::unique_ptr<char, herr_t (*)(void*)> owner(characters, H5free_memory);
+  return characters == nullptr ? "" : characters;
+}
+
+double Hdf5File::ReadReal(const Hdf5Handle& object, const char* name) const {
+  double value = 0.0;
+  ReadScalar(object, name, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::int64_t Hdf5File::ReadInteger(const Hdf5Handle& object, const char* name) const {
+  std::int64_t value = 0;
+  ReadScalar(object, name, H5T_NATIVE_INT64, &value);
+  return value;
+}
+
+void Hdf5File::Flush() { CheckHdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), Writing()); }
+
+void Hdf5File::Close() { file_.Close(Writing()); }
+
+}  // namespace nscdd

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "results/hdf5_handle.h"
+#include "results/rank_group.h"
+
+namespace nscdd {
+
+/// HDF5's name of an element type of our tables.
+template <class T>
+hid_t Hdf5TypeOf() {
+  if constexpr (std::is_enum_v<T>) {
+    return Hdf5TypeOf<std::underlying_type_t<T>>();
+  } else if constexpr (std::is_same_v<T, double>) {
+    return H5T_NATIVE_DOUBLE;
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return H5T_NATIVE_INT64;
+  } else if constexpr (std::is_same_v<T, std::int32_t>) {
+    return H5T_NATIVE_INT32;
+  } else {
+    static_assert(std::is_same_v<T, std::uint8_t>);
+    return H5T_NATIVE_UINT8;
+  }
+}
+
+/// This rank's rows of a table whose rows are spread over the ranks, one rank's behind the lower ranks'.
+struct RowRange {
+  RowRange(const RankGroup& ranks, std::size_t rows);
+
+  hsize_t first;
+  hsize_t count;
+  hsize_t total;  ///< of all ranks
+};
+
+/// Tables of columns and attributes in one HDF5 file. With several ranks all calls are collective (MPI-IO).
+class Hdf5File {
+ public:
+  /// Creates the file, replacing one that is there.
+  static Hdf5File Create(const std::filesystem::path& path, const RankGroup& ranks);
+  /// Opens it for reading in one process.
+  static Hdf5File Open(const std::filesystem::path& path);
+
+  Hdf5Handle CreateGroup(const std::string& name);
+  Hdf5Handle OpenGroup(const std::string& name) const;
+  /// Names of the groups and data sets in a group, ascending.
+  std::vector<std::string> Names(const Hdf5Handle& group) const;
+
+  template <class T>
+  void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, const std::vector<T>& column,
+                   const RowRange& rows) {
+    WriteColumn(group, name, unit, Hdf5TypeOf<T>(), column.data(), rows);
+  }
+  template <class T>
+  void ReadColumn(const Hdf5Handle& group, const char* name, std::vector<T>* column) const {
+    const Hdf5Handle data = OpenColumn(group, name);
+    column->resize(RowsOf(data));
+    Read(data, Hdf5TypeOf<T>(), column->data());
+  }
+
+  void WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text);
+  void WriteAttribute(const Hdf5Handle& object, const char* name, double value);
+  void WriteAttribute(const Hdf5Handle& object, const char* name, std::int64_t value);
+  std::string ReadText(const Hdf5Handle& object, const char* name) const;
+  double ReadReal(const Hdf5Handle& object, const char* name) const;
+  std::int64_t ReadInteger(const Hdf5Handle& object, const char* name) const;
+
+  /// All that was written is in the file when it returns, which is then complete.
+  void Flush();
+  void Close();
+
+ private:
+  Hdf5File(const std::filesystem::path& path, bool parallel);
+
+  void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
+                   const RowRange& rows);
+  void WriteScalar(const Hdf5Handle& object, const char* name, hid_t type, const void* value);
+  void ReadScalar(const Hdf5Handle& object, const char* name, hid_t type, void* value) const;
+  Hdf5Handle OpenColumn(const Hdf5Handle& group, const char* name) const;
+  std::size_t RowsOf(const Hdf5Handle& column) const;
+  void Read(const Hdf5Handle& column, hid_t type, void* data) const;
+  std::string Writing() const { return "write " + path_.string(); }
+  std::string Reading(const std::string& name) const { return "read " + name + " in " + path_.string(); }
+
+  std::filesystem::path path_;
+  bool parallel_;
+  Hdf5Handle file_;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,93 @@
+#include "results/progress_bar.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace nscdd {
+namespace {
+
+constexpr double kRedrawSeconds = 0.1;
+constexpr double kLineSeconds = 30.0;
+
+double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::string FormatDuration(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+  if (whole < 3600) return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::size_t TerminalWidth(std::FILE* stream) {
+  winsize size{};
+  const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+}  // namespace
+
+ProgressBar::Style ProgressBar::StyleFor(std::FILE* stream, bool quiet) {
+  if (quiet) return Style::kNone;
+  return ::isatty(::fileno(stream)) != 0 ? Style::kBar : Style::kLines;
+}
+
+ProgressBar::ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock)
+    : stream_(stream),
+      style_(style),
+      steps_(std::max<std::int64_t>(1, steps)),
+      clock_(clock ? std::move(clock) : Clock(SteadySeconds)),
+      begin_(clock_()),
+      last_output_(begin_) {}
+
+ProgressBar::~ProgressBar() { Finish(); }
+
+bool ProgressBar::IsDue(double now) const {
+  if (done_ == steps_) return true;
+  if (style_ == Style::kBar) return !line_open_ || now - last_output_ >= kRedrawSeconds;
+  return done_ * 10 / steps_ > done_at_last_output_ * 10 / steps_ || now - last_output_ >= kLineSeconds;
+}
+
+std::string ProgressBar::Line(const StepRow& row, double now) const {
+  const double remaining = (now - begin_) / static_cast<double>(done_) * static_cast<double>(steps_ - done_);
+  std::string line = fmt::format("{:3} %  step {}/{}  {} iterations  nat {:.1e}", done_ * 100 / steps_, done_, steps_,
+                                 row.iterations, row.nat);
+  if (not_converged_ > 0) line += fmt::format("  {} not converged", not_converged_);
+  return line + (done_ < steps_ ? fmt::format("  {} left", FormatDuration(remaining))
+                                : fmt::format("  {} taken", FormatDuration(now - begin_)));
+}
+
+void ProgressBar::Update(const StepRow& row) {
+  if (style_ == Style::kNone) return;
+  ++done_;
+  if (row.status != "converged") ++not_converged_;
+  const double now = clock_();
+  if (!IsDue(now)) return;
+
+  std::string line = Line(row, now);
+  if (style_ == Style::kLines) {
+    fmt::print(stream_, "{}\n", line);
+  } else {
+    const std::size_t width = TerminalWidth(stream_) - 1;
+    const std::size_t room = std::min<std::size_t>(40, width > line.size() + 3 ? width - line.size() - 3 : 0);
+    const std::size_t filled = room * static_cast<std::size_t>(done_) / static_cast<std::size_t>(steps_);
+    if (room > 0) line = fmt::format("[{:#>{}}{:.>{}}] {}", "", filled, "", room - filled, line);
+    fmt::print(stream_, "\r{}\x1b[K", line.substr(0, width));  // ESC [ K: erases what the last one had more
+    line_open_ = true;
+  }
+  std::fflush(stream_);
+  last_output_ = now;
+  done_at_last_output_ = done_;
+}
+
+void ProgressBar::Finish() {
+  if (!line_open_) return;
+  fmt::print(stream_, "\n");
+  std::fflush(stream_);
+  line_open_ = false;
+}
+
+}  // namespace nscdd

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "results/step_row.h"
+
+namespace nscdd {
+
+/// Tells the user how far the run is. Use it on rank 0 only.
+class ProgressBar {
+ public:
+  enum class Style {
+    kBar,    ///< one line of a terminal, redrawn
+    kLines,  ///< a plain line every tenth of the run, and at least every 30 s
+    kNone,
+  };
+  using Clock = std::function<double()>;  ///< [s] since any moment
+
+  /// kNone if `quiet`, else kBar if `stream` is a terminal.
+  static Style StyleFor(std::FILE* stream, bool quiet);
+
+  /// `clock` is for tests; by default the steady clock.
+  ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock = {});
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// After each step.
+  void Update(const StepRow& row);
+  /// Ends the line of a bar, so that other output begins on a new one. Also done by the destructor.
+  void Finish();
+
+ private:
+  std::string Line(const StepRow& row, double now) const;
+  bool IsDue(double now) const;
+
+  std::FILE* stream_;
+  Style style_;
+  std::int64_t steps_;
+  Clock clock_;
+  double begin_;
+  double last_output_;
+  std::int64_t done_ = 0;
+  std::int64_t done_at_last_output_ = 0;
+  std::int64_t not_converged_ = 0;
+  bool line_open_ = false;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "results/result_tables.h"
+
+namespace nscdd {
+
+// The columns of each table: the only list of their names and units in results.h5, for writing and reading alike.
+// `visit(name, unit, column)` is called for each in turn; Table is the struct of the function's name, const or not.
+
+template <class Table, class Visit>
+void ForEachGrainColumn(Table& table, Visit visit) {
+  visit("id", "", table.id);
+  visit("x", "m", table.x);
+  visit("y", "m", table.y);
+  visit("angle", "rad", table.angle);
+  visit("vx", "m/s", table.vx);
+  visit("vy", "m/s", table.vy);
+  visit("spin", "rad/s", table.spin);
+  visit("radius", "m", table.radius);
+  visit("multiplicity", "", table.multiplicity);
+  visit("subdomain", "", table.subdomain);
+  visit("kind", "", table.kind);
+}
+
+template <class Table, class Visit>
+void ForEachContactColumn(Table& table, Visit visit) {
+  visit("body_a", "", table.body_a);
+  visit("body_b", "", table.body_b);
+  visit("shape_a", "", table.shape_a);
+  visit("shape_b", "", table.shape_b);
+  visit("image", "", table.image);
+  visit("gap", "m", table.gap);
+  visit("final_gap", "m", table.final_gap);
+  visit("normal_x", "", table.normal_x);
+  visit("normal_y", "", table.normal_y);
+  visit("point_x", "m", table.point_x);
+  visit("point_y", "m", table.point_y);
+  visit("impulse_n", "N s", table.impulse_n);
+  visit("impulse_t", "N s", table.impulse_t);
+  visit("velocity_n", "m/s", table.velocity_n);
+  visit("velocity_t", "m/s", table.velocity_t);
+  visit("status", "", table.status);
+  visit("subdomain", "", table.subdomain);
+}
+
+template <class Table, class Visit>
+void ForEachShapeColumn(Table& table, Visit visit) {
+  visit("body", "", table.body);
+  visit("kind", "", table.kind);
+  visit("x0", "m", table.x0);
+  visit("y0", "m", table.y0);
+  visit("x1", "m", table.x1);
+  visit("y1", "m", table.y1);
+  visit("radius", "m", table.radius);
+}
+
+}  // namespace nscdd

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nscdd {
+
+/// Bodies that one rank owns, at the end of a step: one entry per body in every column.
+struct GrainTable {
+  std::vector<std::int64_t> id;
+  std::vector<double> x;  ///< [m] centre of mass
+  std::vector<double> y;
+  std::vector<double> angle;  ///< [rad]
+  std::vector<double> vx;     ///< [m/s]
+  std::vector<double> vy;
+  std::vector<double> spin;                ///< [rad/s]
+  std::vector<double> radius;              ///< [m] of the largest disk; 0 if it has none
+  std::vector<std::int32_t> multiplicity;  ///< subdomains that hold a contact of the body; 0: none
+  std::vector<std::int32_t> subdomain;     ///< home cell of the centre
+  std::vector<std::uint8_t> kind;          ///< 0 free, 1 prescribed motion (BodyKind)
+
+  std::size_t size() const { return id.size(); }
+};
+
+/// Candidate contacts that one rank solved, at the end of a step: one entry per contact in every column.
+/// Frames and signs: core/include/nscdd/contact_table.h.
+struct ContactRows {
+  std::vector<std::int64_t> body_a;
+  std::vector<std::int64_t> body_b;
+  std::vector<std::int32_t> shape_a;
+  std::vector<std::int32_t> shape_b;
+  std::vector<std::int32_t> image;
+  std::vector<double> gap;        ///< [m] at the detection configuration
+  std::vector<double> final_gap;  ///< [m] at the end of the step
+  std::vector<double> normal_x;
+  std::vector<double> normal_y;
+  std::vector<double> point_x;  ///< [m] where the impulse acts
+  std::vector<double> point_y;
+  std::vector<double> impulse_n;  ///< [N s]
+  std::vector<double> impulse_t;
+  std::vector<double> velocity_n;  ///< [m/s] relative, at the end of the step
+  std::vector<double> velocity_t;
+  std::vector<std::uint8_t> status;  ///< 0 open, 1 sticking, 2 sliding
+  std::vector<std::int32_t> subdomain;
+
+  std::size_t size() const { return body_a.size(); }
+};
+
+enum class ShapeKind : std::uint8_t {
+  kDisk = 0,       ///< centre (x0, y0), radius
+  kSegment = 1,    ///< from (x0, y0) to (x1, y1)
+  kHalfPlane = 2,  ///< free side to the left of the direction (x1, y1) - (x0, y0), through (x0, y0)
+};
+
+/// What bodies look like, for pictures; in the body's frame (origin in the centre of mass, turned by its angle).
+/// A body without an entry is drawn as one centred disk of GrainTable::radius.
+struct ShapeTable {
+  std::vector<std::int64_t> body;
+  std::vector<ShapeKind> kind;
+  std::vector<double> x0;  ///< [m]
+  std::vector<double> y0;
+  std::vector<double> x1;
+  std::vector<double> y1;
+  std::vector<double> radius;
+
+  std::size_t size() const { return body.size(); }
+};
+
+/// What is constant in a run.
+struct RunDescription {
+  std::string scene;
+  std::string solver;
+  std::string version;  ///< of the program
+  std::int64_t subdomains_x = 1;
+  std::int64_t subdomains_y = 1;
+  double period = 0.0;         ///< [m] length of the periodic direction x; 0: not periodic
+  double period_origin = 0.0;  ///< [m] centres are kept in [period_origin, period_origin + period)
+};
+
+/// What is constant in a saved step.
+struct StepDescription {
+  std::int64_t step = 0;
+  double time = 0.0;         ///< [s]
+  double mean_radius = 0.0;  ///< [m] of free bodies
+};
+
+}  // namespace nscdd

@@ -1,0 +1,185 @@
+#include "results/results_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "nscdd/error.h"
+#include "results/staged_file.h"
+
+namespace nscdd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMarker = "run.json";
+constexpr const char* kFormat = "nscdd run 1";
+constexpr std::array kOwnNames = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf"};
+
+std::string PartOf(const std::string& name) { return name + ".part"; }
+
+std::string ReadAll(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error(fmt::format("cannot read {}: check that it exists and its permissions.", file.string()));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The marker, or null if there is none or it is not ours.
+nlohmann::json ReadMarker(const fs::path& file) {
+  if (!fs::exists(file)) return nullptr;
+  nlohmann::json marker = nlohmann::json::parse(ReadAll(file), nullptr, /*allow_exceptions=*/false);
+  const bool is_ours = marker.is_object() && marker.value("format", "") == kFormat && marker.contains("scene");
+  return is_ours ? marker : nlohmann::json(nullptr);
+}
+
+/// Throws if somebody would lose something by our writing here.
+void RefuseForeignResults(const fs::path& folder, const std::string& scene) {
+  bool has_marker = false;
+  for (const std::string& name : {std::string(kMarker), PartOf(kMarker)}) {
+    const nlohmann::json marker = ReadMarker(folder / name);
+    if (marker.is_null()) continue;
+    has_marker = true;
+    if (marker["scene"] != scene) {
+      throw Error(
+          fmt::format("the folder {} holds results of the scene '{}', not of '{}': choose another folder with --out, or "
+                      "remove that one.",
+                      folder.string(), marker["scene"].get<std::string>(), scene));
+    }
+  }
+  if (has_marker) return;
+  for (const std::string name : kOwnNames) {
+    for (const std::string& found : {name, PartOf(name)}) {
+      if (!fs::exists(folder / found)) continue;
+      throw Error(
+          fmt::format("the folder {} holds a {} but no {} that says which scene it is from: choose another folder with "
+                      "--out, or remove it.",
+                      folder.string(), found, kMarker));
+    }
+  }
+}
+
+nlohmann::ordered_json MarkerOf(const RunIdentity& identity) {
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : identity.settings) settings[key] = value;
+  return {{"format", kFormat},
+          {"scene", identity.scene},
+          {"scene_file", identity.scene_file},
+          {"scene_hash", identity.scene_hash},
+          {"version", identity.version},
+          {"settings", settings}};
+}
+
+/// Creates `folder` and those above it; returns the new ones, innermost first.
+std::vector<fs::path> CreateFolders(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error(fmt::format("{} is a file, not a folder: choose another folder with --out.", folder.string()));
+  }
+  std::vector<fs::path> created;
+  for (fs::path part = folder; !part.empty() && !fs::exists(part, error) && part != part.root_path();
+       part = part.parent_path()) {
+    if (part.has_filename()) created.push_back(part);
+  }
+  fs::create_directories(folder, error);
+  if (error) throw Error(CannotWrite(folder, error.value()));
+  return created;
+}
+
+}  // namespace
+
+std::string HashOfFile(const fs::path& file) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : ReadAll(file)) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+ResultsFolder::ResultsFolder(const fs::path& folder, const RunIdentity& identity, const RankGroup& ranks)
+    : folder_(folder), ranks_(ranks) {
+  try {
+    ranks_.RunOnRoot([&] { Claim(identity); });
+  } catch (const Error&) {
+    Release();
+    throw;
+  }
+}
+
+ResultsFolder::~ResultsFolder() { Release(); }
+
+void ResultsFolder::Claim(const RunIdentity& identity) {
+  created_ = CreateFolders(folder_);
+  RefuseForeignResults(folder_, identity.scene);
+  const fs::path marker = folder_ / PartOf(kMarker);
+  lock_ = ::open(marker.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) throw Error(CannotWrite(folder_, errno));
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    lock_ = -1;
+    throw Error(fmt::format("another run is writing into {}: wait until it has ended, or choose another folder with --out.",
+                            folder_.string()));
+  }
+  for (const std::string name : kOwnNames) fs::remove(folder_ / PartOf(name));
+  StagedFile(marker).Write(MarkerOf(identity).dump(2) + "\n");
+}
+
+fs::path ResultsFolder::Stage(const std::string& name) {
+  if (std::find(staged_.begin(), staged_.end(), name) == staged_.end()) staged_.push_back(name);
+  return folder_ / PartOf(name);
+}
+
+void ResultsFolder::Finish() {
+  ranks_.RunOnRoot([&] { Rename(); });
+  finished_ = true;
+  Release();
+}
+
+void ResultsFolder::Rename() {
+  const fs::path part = folder_ / PartOf(kMarker);
+  nlohmann::ordered_json marker = nlohmann::ordered_json::parse(ReadAll(part));
+  marker["files"] = staged_;
+  StagedFile(part).Write(marker.dump(2) + "\n");
+
+  std::vector<std::string> stale(kOwnNames.begin(), kOwnNames.end());
+  const nlohmann::json previous = ReadMarker(folder_ / kMarker);
+  if (previous.is_object()) {
+    for (const auto& name : previous.value("files", std::vector<std::string>())) stale.push_back(name);
+  }
+  for (const std::string& name : staged_) SyncToDisk(folder_ / PartOf(name));
+  SyncToDisk(part);
+  for (const std::string& name : staged_) fs::rename(folder_ / PartOf(name), folder_ / name);
+  for (const std::string& name : stale) {
+    const bool is_new = std::find(staged_.begin(), staged_.end(), name) != staged_.end();
+    // A name with a folder in it is none that we gave.
+    if (!is_new && fs::path(name).filename() == name) fs::remove(folder_ / name);
+  }
+  fs::rename(part, folder_ / kMarker);
+  SyncToDisk(folder_);
+}
+
+void ResultsFolder::Release() {
+  if (lock_ < 0 && (finished_ || !ranks_.is_root())) return;
+  std::error_code ignored;  // tidying up must not hide the error that led here
+  const bool drop = !finished_ && !keep_parts_;
+  if (lock_ >= 0) {
+    if (drop) {
+      for (const std::string& name : staged_) fs::remove(folder_ / PartOf(name), ignored);
+      fs::remove(folder_ / PartOf(kMarker), ignored);
+    }
+    ::close(lock_);
+    lock_ = -1;
+  }
+  if (!drop) return;
+  for (const fs::path& folder : created_) fs::remove(folder, ignored);  // does nothing unless empty
+  created_.clear();
+}
+
+}  // namespace nscdd

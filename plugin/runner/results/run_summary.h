@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "results/step_row.h"
+
+namespace nscdd {
+
+/// Gathers what the table at the end of a run shows.
+struct RunSummary {
+  // Filled by the runner.
+  std::string scene;
+  std::string adapter;
+  std::string solver;
+  std::string criterion;  ///< for instance "nat <= 0.0001"
+  std::string output;     ///< folder
+  int ranks = 1;
+  std::int64_t subdomains_x = 1;
+  std::int64_t subdomains_y = 1;
+  std::int64_t steps_asked = 0;
+  int unknowns_per_contact = 0;
+  int unknowns_per_body = 0;
+  int bytes_per_contact = 0;
+  int bytes_per_body = 0;
+  double seconds_wall = 0.0;  ///< of the whole run
+
+  /// After each step.
+  void Add(const StepRow& row);
+
+  /// Steps whose solve did not converge.
+  std::int64_t not_converged() const { return status_count[1] + status_count[2] + status_count[3]; }
+
+  // Filled by Add().
+  std::int64_t steps = 0;
+  double time = 0.0;                              ///< [s] simulated
+  std::array<std::int64_t, 4> status_count = {};  ///< converged, iteration_limit, stalled, diverged
+  StepRow last;
+  StepRow first_not_converged;
+  std::int64_t iterations = 0;  ///< sums over the steps, unless they say maximum
+  std::int64_t max_iterations = 0;
+  std::int64_t sweeps = 0;
+  double nat = 0.0;
+  double max_nat = 0.0;
+  double max_nat_max = 0.0;
+  double mean_interpenetration = 0.0;
+  double max_interpenetration = 0.0;
+  double max_jump = 0.0;
+  double injected_energy = 0.0;
+  std::int64_t steps_beyond_alert = 0;  ///< max_drift > alert_distance
+  std::int64_t painleve_contacts = 0;
+  std::int64_t migrated_bodies = 0;
+  std::int64_t messages = 0;
+  std::int64_t message_bytes = 0;
+  std::int64_t collectives = 0;
+  double seconds_detect = 0.0;
+  double seconds_solve = 0.0;
+  double seconds_communicate = 0.0;
+  double seconds_steps = 0.0;  ///< sum of seconds_total
+};
+
+/// The table, several lines, each ended by '\n'.
+std::string FormatSummary(const RunSummary& summary);
+
+}  // namespace nscdd

@@ -1,0 +1,207 @@
+#include "scene/body_stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "nscdd/error.h"
+#include "scene/disk_file.h"
+#include "scene/read_bodies.h"
+
+namespace nscdd {
+namespace {
+
+/// Makes the bodies [first, last) of one source; `number` is that of the source's first body in the scene.
+class SourceVisitor {
+ public:
+  SourceVisitor(const Scene& scene, const BodySource& source, std::int64_t number, std::int64_t first, std::int64_t last,
+                const std::function<void(const BodyDefinition&)>& visit)
+      : scene_(scene), source_(source), number_(number), first_(first), last_(last), visit_(visit) {}
+
+  void operator()(const SingleDisk& disk) const {
+    BodyDefinition body = MakeDisk({{disk.pose.x, disk.pose.y}, disk.radius}, source_.material);
+    body.pose.angle = disk.pose.angle;
+    Give(0, std::move(body));
+  }
+
+  void operator()(const Lattice& lattice) const {
+    for (std::int64_t i = first_; i < last_; ++i) Give(i, MakeDisk(LatticeDisk(lattice, i), source_.material));
+  }
+
+  void operator()(const Deposition& deposition) const {
+    DepositionGenerator generator(deposition);
+    for (std::int64_t i = 0; i < last_; ++i) {
+      const reference::Disk disk = generator.Next();
+      if (i >= first_) Give(i, MakeDisk(disk, source_.material));
+    }
+  }
+
+  void operator()(const DiskFile& file) const {
+    DiskFileReader reader(file.path);
+    for (std::int64_t i = 0; i < first_; ++i) {
+      if (!reader.Skip()) RefuseChange(file);
+    }
+    for (std::int64_t i = first_; i < last_; ++i) {
+      DiskRow row;
+      row.velocity = source_.velocity;
+      if (!reader.Next(&row)) RefuseChange(file);
+      const std::string where = fmt::format("{}:{}:", file.path.string(), row.line);
+      BodyDefinition body = MakeDisk({{row.pose.x, row.pose.y}, row.radius},
+                                     row.material.empty() ? source_.material : FindMaterial(scene_, row.material, where));
+      body.pose.angle = row.pose.angle;
+      body.velocity = row.velocity;
+      body.id = row.id.value_or(number_ + i);
+      visit_(body);
+    }
+  }
+
+  void operator()(const Cluster& cluster) const {
+    for (std::int64_t i = first_; i < last_; ++i) {
+      BodyDefinition body = reference::MakeCluster(0, cluster.disks, material(source_.material).density);
+      const Pose& at = cluster.at[static_cast<std::size_t>(i)];
+      const Vec2 centre = Centre(at) + Rotate(at.angle, Centre(body.pose));
+      body.pose = {centre.x, centre.y, at.angle};
+      body.mass = cluster.mass.value_or(body.mass);
+      body.inertia = cluster.inertia.value_or(body.inertia);
+      Finish(source_.material, &body);
+      Give(i, std::move(body));
+    }
+  }
+
+  void operator()(const Wall& wall) const {
+    for (std::int64_t i = first_; i < last_; ++i) {
+      const Vec2 centre = wall.one_body ? wall.centre : wall.disks[static_cast<std::size_t>(i)].centre;
+      BodyDefinition body = reference::MakeWall(0, {centre.x, centre.y, 0.0});
+      Finish(source_.material, &body);
+      if (wall.one_body) CopyShapes(wall, &body);
+      if (!wall.one_body) body.disks = {{{}, wall.disks[static_cast<std::size_t>(i)].radius}};
+      Give(i, std::move(body));
+    }
+  }
+
+ private:
+  const Material& material(int index) const { return scene_.materials[static_cast<std::size_t>(index)]; }
+
+  void Finish(int material_index, BodyDefinition* body) const {
+    body->kind = source_.kind;
+    body->friction = material(material_index).friction;
+    body->restitution = material(material_index).restitution;
+    body->velocity = source_.velocity;
+    if (source_.kind == BodyKind::kPrescribed) body->mass = body->inertia = 0.0;
+  }
+
+  BodyDefinition MakeDisk(const reference::Disk& disk, int material_index) const {
+    BodyDefinition body = reference::MakeDisk(0, disk.centre, disk.radius, material(material_index).density);
+    Finish(material_index, &body);
+    return body;
+  }
+
+  static void CopyShapes(const Wall& wall, BodyDefinition* body) {
+    const Vec2 origin = wall.centre;
+    for (const reference::Disk& disk : wall.disks) body->disks.push_back({disk.centre - origin, disk.radius});
+    for (const reference::Segment& segment : wall.segments) body->segments.push_back({segment.a - origin, segment.b - origin});
+    for (const reference::HalfPlane& plane : wall.half_planes) {
+      body->half_planes.push_back({plane.normal, plane.offset - Dot(plane.normal, origin)});
+    }
+  }
+
+  void Give(std::int64_t index, BodyDefinition body) const {
+    body.id = source_.id.value_or(number_ + index);
+    visit_(body);
+  }
+
+  [[noreturn]] static void RefuseChange(const DiskFile& file) {
+    throw Error(fmt::format("{}: has fewer disks than when the scene was read; leave it alone during a run.", file.path.string()));
+  }
+
+  const Scene& scene_;
+  const BodySource& source_;
+  std::int64_t number_, first_, last_;
+  const std::function<void(const BodyDefinition&)>& visit_;
+};
+
+/// Smallest k with floor(k ranks / n) >= rank.
+std::int64_t FirstNumber(std::int64_t count, int rank, int ranks) {
+  const auto n = static_cast<unsigned __int128>(count);
+  const auto whole = n * static_cast<unsigned>(rank) + static_cast<unsigned>(ranks) - 1;
+  return static_cast<std::int64_t>(whole / static_cast<unsigned>(ranks));
+}
+
+struct OwnId {
+  std::int64_t id;
+  std::int32_t source;
+  std::int32_t line;  ///< of the CSV file, or 0
+};
+
+void CollectIds(const BodySource& source, std::int32_t index, std::vector<OwnId>* ids) {
+  if (source.id) ids->push_back({*source.id, index, 0});
+  const auto* file = std::get_if<DiskFile>(&source.what);
+  if (file == nullptr || !file->has_ids) return;
+  DiskFileReader reader(file->path);
+  for (DiskRow row; reader.Next(&row);) ids->push_back({*row.id, index, static_cast<std::int32_t>(row.line)});
+}
+
+std::string Place(const Scene& scene, const OwnId& id) {
+  const BodySource& source = scene.bodies[static_cast<std::size_t>(id.source)];
+  if (id.line == 0) return fmt::format("{}:{}: key '{}.id'", scene.file.string(), source.line, source.key);
+  return fmt::format("{}:{}:", std::get<DiskFile>(source.what).path.string(), id.line);
+}
+
+bool NumbersItself(const BodySource& source) {
+  const auto* file = std::get_if<DiskFile>(&source.what);
+  return !source.id && !(file != nullptr && file->has_ids);
+}
+
+/// Refuses an id that is the number of a body without one.
+void CheckAgainstNumbers(const Scene& scene, const std::vector<OwnId>& sorted) {
+  std::int64_t number = 0;
+  for (const BodySource& source : scene.bodies) {
+    const auto found = std::lower_bound(sorted.begin(), sorted.end(), number,
+                                        [](const OwnId& id, std::int64_t first) { return id.id < first; });
+    if (NumbersItself(source) && found != sorted.end() && found->id < number + source.count) {
+      throw Error(fmt::format("{} {} is the number of a body of '{}' (line {}), which has no id and is numbered by its place in the "
+                              "scene, walls first; give ids from {} up.",
+                              Place(scene, *found), found->id, source.key, source.line, CountBodies(scene)));
+    }
+    number += source.count;
+  }
+}
+
+}  // namespace
+
+std::int64_t CountBodies(const Scene& scene) {
+  std::int64_t count = 0;
+  for (const BodySource& source : scene.bodies) count += source.count;
+  return count;
+}
+
+void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit) {
+  const std::int64_t count = CountBodies(scene);
+  const std::int64_t begin = FirstNumber(count, rank, ranks), end = FirstNumber(count, rank + 1, ranks);
+  std::int64_t number = 0;
+  for (const BodySource& source : scene.bodies) {
+    const std::int64_t first = std::max<std::int64_t>(begin - number, 0);
+    const std::int64_t last = std::min(end - number, source.count);
+    if (first < last) std::visit(SourceVisitor(scene, source, number, first, last, visit), source.what);
+    number += source.count;
+  }
+}
+
+void CheckIds(const Scene& scene) {
+  std::vector<OwnId> ids;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) CollectIds(scene.bodies[i], static_cast<std::int32_t>(i), &ids);
+  std::sort(ids.begin(), ids.end(), [](const OwnId& a, const OwnId& b) {
+    return std::tie(a.id, a.source, a.line) < std::tie(b.id, b.source, b.line);
+  });
+  const auto twin = std::adjacent_find(ids.begin(), ids.end(), [](const OwnId& a, const OwnId& b) { return a.id == b.id; });
+  if (twin != ids.end()) {
+    throw Error(fmt::format("{} {} is a duplicate: the first body of this id is at {}; give each body its own.", Place(scene, twin[1]),
+                            twin->id, Place(scene, *twin)));
+  }
+  CheckAgainstNumbers(scene, ids);
+}
+
+}  // namespace nscdd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "nscdd/reference/world.h"
+#include "scene/scene.h"
+
+namespace nscdd {
+
+/// A body, complete, as platforms take it; the reference platform's description serves all of them.
+using BodyDefinition = reference::Body;
+
+/// Bodies of the scene, walls included.
+std::int64_t CountBodies(const Scene& scene);
+
+/// Calls `visit` for the bodies of this rank in the order of the scene: number k of n goes to rank floor(k ranks / n). Holds
+/// one body at a time (and the surface of a deposition). Throws Error when a CSV file has changed since the scene was read.
+void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit);
+
+/// Throws Error, naming both places, if two bodies have the same id. Needs 16 bytes per body with an id of its own, for the
+/// duration of the call.
+void CheckIds(const Scene& scene);
+
+}  // namespace nscdd

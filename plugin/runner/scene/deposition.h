@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nscdd/reference/world.h"
+
+namespace nscdd {
+
+/// Disks laid under vertical gravity one after the other: each is dropped somewhere and takes the lowest place nearby where it
+/// rests on two earlier ones or on one and a side. Neighbours touch, two contacts per disk, and nothing overlaps.
+struct Deposition {
+  double left = 0.0, right = 0.0;             ///< [m] vertical sides
+  double bottom = 0.0;                        ///< [m] flat floor
+  double min_radius = 0.0, max_radius = 0.0;  ///< [m] radii are uniform in between; the larger one fits between the sides
+  std::uint64_t seed = 0;
+};
+
+/// Lays the disks in order. Remembers only the surface, so its memory is that of one layer; about 1 microsecond per disk.
+class DepositionGenerator {
+ public:
+  explicit DepositionGenerator(const Deposition& deposition) : deposition_(deposition) {}
+
+  /// The next disk, in the world frame.
+  reference::Disk Next();
+
+ private:
+  struct Seat {
+    Vec2 centre;
+    std::size_t first;  ///< surface disks [first, last) disappear below the new one
+    std::size_t last;
+  };
+  std::optional<Vec2> OnFloor(double radius) const;
+  std::optional<Vec2> Between(std::ptrdiff_t left, std::size_t right, double radius) const;
+  bool IsAbove(Vec2 centre) const;
+  bool IsFree(Vec2 centre, double radius) const;
+  std::size_t FirstFrom(double x) const;
+  std::optional<Seat> LowestSeat(double from, double to, double radius) const;
+  Seat OnTop(double radius) const;
+
+  Deposition deposition_;
+  std::vector<reference::Disk> surface_;  ///< ascending in x
+  bool floor_is_full_ = false;
+  std::uint64_t index_ = 0;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "nscdd/vector.h"
+
+namespace nscdd {
+
+struct ConstantGravity {
+  Vec2 vector{0.0, -9.81};  ///< [m/s^2]
+};
+
+/// g (sin a, -cos a); the angle goes linearly from `from_angle` at the first step to `to_angle`, then stays.
+struct RotatingGravity {
+  double g = 9.81;                       ///< [m/s^2]
+  double from_angle = 0.0;               ///< [rad]
+  double to_angle = 0.0;                 ///< [rad]
+  std::optional<std::int64_t> in_steps;  ///< the step (from 1) that is the first with `to_angle`; >= 2
+  double in_time = 0.0;                  ///< [s] otherwise: the time at whose step the angle has arrived
+};
+
+struct GravitySample {
+  double time;  ///< [s]
+  Vec2 vector;  ///< [m/s^2]
+};
+
+/// Linear between samples (ascending in time), constant before the first and after the last.
+struct GravityTable {
+  std::vector<GravitySample> samples;
+};
+
+using GravityLaw = std::variant<ConstantGravity, RotatingGravity, GravityTable>;
+
+/// Gravity [m/s^2] during step `step` >= 1 of `dt` [s]: its value at the beginning of the step, time (step - 1) dt.
+Vec2 GravityAt(const GravityLaw& law, std::int64_t step, double dt);
+
+}  // namespace nscdd

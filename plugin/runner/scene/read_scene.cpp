@@ -1,0 +1,234 @@
+#include "scene/read_scene.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "nscdd/error.h"
+#include "scene/body_stream.h"
+#include "scene/read_bodies.h"
+#include "scene/read_walls.h"
+#include "scene/table_reader.h"
+#include "scene/utf8.h"
+
+namespace nscdd {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+
+std::string ReadText(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
+  }
+  if (std::filesystem::file_size(path, error) > kLargestFile) {
+    throw Error(fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream || text.str().empty()) {
+    throw Error(fmt::format("{}: is empty or cannot be read; write a scene (see sample_scenes/README.md).", path.string()));
+  }
+  if (const int line = FirstLineOutsideUtf8(text.str()); line > 0) {
+    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
+  }
+  return text.str();
+}
+
+toml::table ParseToml(const std::filesystem::path& path) {
+  try {
+    return toml::parse(ReadText(path), path.string());
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: is not valid TOML ({}); mend this line.", path.string(), error.source().begin.line,
+                            error.description()));
+  }
+}
+
+/// Letters, digits, '_', '-' and '.': it becomes a folder.
+bool IsPlainName(const std::string& name) {
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return (c < 128 && std::isalnum(c)) || c == '_' || c == '-' || c == '.';
+  });
+}
+
+void CheckName(const TableReader& table, std::string_view key, const std::string& name) {
+  if (!IsPlainName(name)) table.Refuse(key, fmt::format("is '{}'; use only letters, digits, '_', '-' and '.'", name));
+}
+
+void ReadHead(TableReader* root, Scene* scene) {
+  scene->name = scene->file.stem().string();
+  std::optional<TableReader> table = root->Table("scene");
+  if (!table) return;
+  if (table->Has("name")) {
+    scene->name = table->Text("name");
+    CheckName(*table, "name", scene->name);
+  }
+  scene->title = table->Text("title", "");
+  scene->adapter = table->Choice("adapter", {"box2d", "reference"}, scene->adapter);
+  table->Finish();
+}
+
+void ReadTime(TableReader* root, Scene* scene) {
+  std::optional<TableReader> table = root->Table("time");
+  if (!table) root->Refuse("time", "is missing; write a table [time] with dt and steps");
+  scene->time.dt = table->Number("dt", Bound::kPositive, "[s]");
+  scene->time.steps = table->Integer("steps", 1, {}, kMostSteps);
+  scene->time.theta = table->Number("theta", Bound::kFraction, "(from 0.5 to 1)", scene->time.theta);
+  if (scene->time.theta < 0.5) table->Refuse("theta", fmt::format("is {}; give a number from 0.5 to 1", scene->time.theta));
+  table->Finish();
+}
+
+ConstantGravity ReadConstantGravity(TableReader* table) {
+  if (table->Has("vector")) return {table->Vector("vector", "[m/s^2]")};
+  const double g = table->Number("g", Bound::kNotNegative, "[m/s^2]", 9.81);
+  const double angle = table->Number("angle", Bound::kFinite, "[rad]", 0.0);
+  return {{g * std::sin(angle), -g * std::cos(angle)}};
+}
+
+RotatingGravity ReadRotatingGravity(TableReader* table) {
+  RotatingGravity law;
+  law.g = table->Number("g", Bound::kNotNegative, "[m/s^2]", law.g);
+  law.from_angle = table->Number("from_angle", Bound::kFinite, "[rad]");
+  law.to_angle = table->Number("to_angle", Bound::kFinite, "[rad]");
+  if (table->Has("in_steps") == table->Has("in_time")) {
+    table->Refuse("in_steps", "and 'in_time' say the same; give exactly one of them");
+  }
+  if (table->Has("in_steps")) {
+    law.in_steps = table->Integer("in_steps", 2, {}, kMostSteps);
+  } else {
+    law.in_time = table->Number("in_time", Bound::kPositive, "[s]");
+  }
+  return law;
+}
+
+GravityTable ReadGravityTable(TableReader* table) {
+  GravityTable law;
+  for (const auto& row : table->Rows("table", 3, "[time, gx, gy] [s, m/s^2, m/s^2]", 1)) {
+    if (!law.samples.empty() && row[0] <= law.samples.back().time) {
+      table->Refuse("table", fmt::format("has time {} after time {}; give times in ascending order", row[0], law.samples.back().time));
+    }
+    law.samples.push_back({row[0], {row[1], row[2]}});
+  }
+  return law;
+}
+
+void ReadGravity(TableReader* root, Scene* scene) {
+  std::optional<TableReader> table = root->Table("gravity");
+  if (!table) return;
+  const std::string kind = table->Choice("kind", {"constant", "rotating", "table"}, "constant");
+  if (kind == "constant") scene->gravity = ReadConstantGravity(&*table);
+  if (kind == "rotating") scene->gravity = ReadRotatingGravity(&*table);
+  if (kind == "table") scene->gravity = ReadGravityTable(&*table);
+  table->Finish();
+}
+
+void ReadPeriodicity(TableReader* root, Scene* scene) {
+  std::optional<TableReader> table = root->Table("periodic");
+  if (!table) return;
+  const std::vector<double> x = table->List("x", 2, "[origin, length] [m]");
+  if (!(x[1] > 0.0)) table->Refuse("x", fmt::format("is [{}, {}]; give [origin, length] with length > 0 [m]", x[0], x[1]));
+  scene->periodic = Periodicity{x[0], x[1]};
+  table->Finish();
+}
+
+void ReadMaterials(TableReader* root, Scene* scene) {
+  for (TableReader& entry : root->Tables("materials")) {
+    Material material;
+    material.name = entry.Text("name");
+    material.density = entry.Number("density", Bound::kPositive, "[kg/m^2]", material.density);
+    material.friction = entry.Number("friction", Bound::kNotNegative, "", material.friction);
+    material.restitution = entry.Number("restitution", Bound::kFraction, "", material.restitution);
+    entry.Finish();
+    for (const Material& other : scene->materials) {
+      if (other.name == material.name) entry.Refuse("name", fmt::format("is '{}' twice; give each material its own", other.name));
+    }
+    scene->materials.push_back(std::move(material));
+  }
+  if (scene->materials.empty()) scene->materials.push_back({.name = "default"});
+}
+
+/// Any value of one option as the text that the option table of the solver reads.
+std::string OptionText(const TableReader& table, std::string_view key, const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* number = node.as_floating_point()) {
+    if (!std::isfinite(number->get())) table.Refuse(key, fmt::format("is {}; give a finite number", number->get()));
+    return fmt::format("{}", number->get());
+  }
+  const toml::array* pair = node.as_array();
+  if (pair != nullptr && pair->size() == 2 && pair->get(0)->is_integer() && pair->get(1)->is_integer()) {
+    return fmt::format("{}x{}", pair->get(0)->as_integer()->get(), pair->get(1)->as_integer()->get());
+  }
+  table.Refuse(key, fmt::format("is {}; give a number, a text, true or false, or a pair of integers", TypeName(node)));
+}
+
+void ReadSolver(TableReader* root, Scene* scene) {
+  std::optional<TableReader> table = root->Table("solver");
+  scene->solver.line = table ? table->Line("name") : 1;
+  if (!table) return;
+  scene->solver.name = table->Text("name", scene->solver.name);
+  const bool stop = table->Choice("on_nonconvergence", {"continue", "stop"}, "continue") == "stop";
+  scene->solver.on_nonconvergence = stop ? OnNonconvergence::kStop : OnNonconvergence::kContinue;
+  for (const auto& [key, node] : table->table()) {
+    if (key.str() == "name" || key.str() == "on_nonconvergence") continue;
+    scene->solver.options.push_back({std::string(key.str()), OptionText(*table, key.str(), node), table->Line(key.str())});
+  }
+}
+
+void ReadOutput(TableReader* root, Scene* scene) {
+  std::optional<TableReader> table = root->Table("output");
+  if (!table) return;
+  if (table->Has("dir")) {
+    const std::filesystem::path dir = table->Text("dir");
+    if (dir.is_absolute() || std::find(dir.begin(), dir.end(), "..") != dir.end()) {
+      table->Refuse("dir", fmt::format("is '{}'; give a path without '..' below the current folder, or use --out", dir.string()));
+    }
+    scene->output.dir = dir.string();
+  }
+  if (table->Has("save_every")) scene->output.save_every = table->Integer("save_every", 1, {}, kMostSteps);
+  if (table->Has("packing")) {
+    scene->output.packing = table->Text("packing");
+    CheckName(*table, "packing", scene->output.packing);
+  }
+  table->Finish();
+}
+
+void CheckBodies(const TableReader& root, const Scene& scene) {
+  if (scene.bodies.empty()) root.Refuse("disks", "is missing, and so is every other body; add [[disks]], [[lattices]], [[depositions]] or [[clusters]]");
+  const bool any_free = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const BodySource& source) { return source.kind == BodyKind::kFree; });
+  if (!any_free) root.Refuse("disks", "has no free body in it, nor has any other table; add one that can move");
+  CheckIds(scene);
+}
+
+}  // namespace
+
+Scene ReadSceneFile(const std::filesystem::path& path) {
+  const toml::table text = ParseToml(path);
+  Scene scene;
+  scene.file = path;
+  TableReader root(text, "", scene.file);
+  ReadHead(&root, &scene);
+  ReadTime(&root, &scene);
+  ReadGravity(&root, &scene);
+  ReadPeriodicity(&root, &scene);
+  ReadSolver(&root, &scene);
+  ReadOutput(&root, &scene);
+  ReadMaterials(&root, &scene);
+  ReadWalls(&root, &scene);
+  ReadGrains(&root, &scene);
+  root.Finish();
+  CheckBodies(root, scene);
+  return scene;
+}
+
+}  // namespace nscdd

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace nscdd {
+
+/// Reads and checks a scene file and, row by row, the CSV files that it names. The keys: sample_scenes/README.md.
+/// Throws Error "FILE:LINE: key 'x.y' what is wrong; how to mend it." The option keys of [solver] are not checked here.
+Scene ReadSceneFile(const std::filesystem::path& path);
+
+}  // namespace nscdd

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "nscdd/body_table.h"
+#include "nscdd/reference/world.h"
+#include "nscdd/vector.h"
+#include "scene/deposition.h"
+#include "scene/gravity.h"
+#include "scene/lattice.h"
+
+namespace nscdd {
+
+struct Material {
+  std::string name;
+  double density = 1.0;      ///< [kg/m^2]
+  double friction = 0.3;     ///< [-] Coulomb coefficient; the platform combines the two of a pair
+  double restitution = 0.0;  ///< [-] Newton coefficient
+};
+
+struct TimeSettings {
+  double dt = 0.0;          ///< [s]
+  std::int64_t steps = 0;
+  double theta = 0.5;       ///< [-]
+};
+
+/// Bodies are periodic in x: centres live in [origin, origin + length).
+struct Periodicity {
+  double origin = 0.0;  ///< [m]
+  double length = 0.0;  ///< [m]
+};
+
+/// One disk, written in the scene file.
+struct SingleDisk {
+  Pose pose;
+  double radius = 0.0;  ///< [m]
+};
+
+/// Disks in a CSV file; read row by row, never held.
+struct DiskFile {
+  std::filesystem::path path;
+  bool has_ids = false;
+  double mean_radius = 0.0;  ///< [m]
+};
+
+/// A rigid assembly of disks, at one or more places.
+struct Cluster {
+  std::vector<reference::Disk> disks;   ///< in the frame that `at` places
+  std::vector<Pose> at;
+  std::optional<double> mass;     ///< [kg] instead of the sum over the disks
+  std::optional<double> inertia;  ///< [kg m^2] about the centre of mass, instead of the sum over the disks
+};
+
+/// A prescribed body made of any shapes, or one prescribed body for each of its disks.
+struct Wall {
+  std::vector<reference::Disk> disks;           ///< all shapes in the world frame, at the first step
+  std::vector<reference::Segment> segments;
+  std::vector<reference::HalfPlane> half_planes;
+  Vec2 centre;           ///< [m] about which it spins
+  bool one_body = true;  ///< false: every disk is a body of its own
+};
+
+/// What one entry of the scene file makes: `count` bodies that follow each other.
+struct BodySource {
+  std::string key;   ///< where it stands, such as "disks[2]"
+  int line = 0;
+  std::variant<SingleDisk, DiskFile, Lattice, Deposition, Cluster, Wall> what;
+  std::int64_t count = 1;
+  int material = 0;  ///< index in Scene::materials
+  BodyKind kind = BodyKind::kFree;
+  Twist velocity;
+  std::optional<std::int64_t> id;  ///< of a single body; without it bodies are numbered by their place in the scene
+};
+
+/// A key of [solver] that the solver itself will understand or refuse.
+struct SolverOption {
+  std::string key;
+  std::string text;  ///< numbers in the shortest form that reads back the same, pairs as "2x3", flags as "true" or "false"
+  int line = 0;
+};
+
+enum class OnNonconvergence { kContinue, kStop };
+
+struct SolverSettings {
+  std::string name = "nscd";
+  int line = 0;  ///< of the name, or of the file's first line
+  std::vector<SolverOption> options;
+  OnNonconvergence on_nonconvergence = OnNonconvergence::kContinue;
+};
+
+struct OutputSettings {
+  std::string dir;                        ///< empty: the runner's default
+  std::optional<std::int64_t> save_every; ///< steps between two saved states; none: first and last only
+  std::string packing;                    ///< file in the output folder that receives the free disks at the end (packing.h)
+};
+
+/// A scene file as read: settings and recipes of bodies, never the bodies themselves.
+struct Scene {
+  std::filesystem::path file;
+  std::string name;
+  std::string title;
+  std::string adapter = "box2d";
+  TimeSettings time;
+  GravityLaw gravity;
+  std::optional<Periodicity> periodic;
+  std::vector<Material> materials;  ///< never empty; the first is the default
+  std::vector<BodySource> bodies;   ///< walls first
+  SolverSettings solver;
+  OutputSettings output;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nscdd/report.h"
+#include "nscdd/time_stepper.h"
+#include "nscdd_plugin.h"
+
+namespace nscdd {
+
+/// A table of numbers in columns, kept for the C interface.
+class ResultTable {
+ public:
+  void FillBodies(std::span<const BodyRecord> records);
+  void FillContacts(std::span<const ContactRecord> records);
+  void FillIterations(std::span<const IterationRecord> records);
+
+  /// Points into this object; the header is left alone.
+  void Show(nscdd_table* table) const;
+
+ private:
+  template <class Record, class Columns>
+  void Fill(std::span<const Record> records, const Columns& columns);
+
+  std::uint64_t rows_ = 0;
+  std::vector<std::uint64_t> numbers_;  // column after column; bits of a double or of an int64_t
+  std::vector<nscdd_column> columns_;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,137 @@
+#include "solver_handle.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "guard.h"
+#include "nscdd/callback/abi_check.h"
+#include "nscdd/contact_problem.h"
+#include "nscdd/mpi_communicator.h"
+#include "parallel/agreement.h"
+#include "report_copy.h"
+#include "single_problem.h"
+
+namespace nscdd {
+namespace {
+
+constexpr std::uint64_t kMostOptions = 1000;
+
+std::unique_ptr<Communicator> MakeCommunicator(const nscdd_create_arguments& arguments) {
+  if (arguments.distributed == 0) return std::make_unique<SerialCommunicator>();
+  int started = 0, ended = 0;
+  MPI_Initialized(&started);
+  MPI_Finalized(&ended);
+  if (started == 0 || ended != 0) {
+    throw BadCall(
+        "create: distributed is 1, but MPI is not running in this process; call MPI_Init before, or set distributed = 0");
+  }
+  const MPI_Comm communicator = MPI_Comm_f2c(arguments.communicator);
+  if (communicator == MPI_COMM_NULL) {
+    throw BadCall(
+        fmt::format("create: communicator {} is no handle of this MPI; give MPI_Comm_c2f(comm)", arguments.communicator));
+  }
+  return std::make_unique<MpiCommunicator>(communicator);
+}
+
+SolverSettings ReadSettings(const nscdd_create_arguments& arguments) {
+  if (arguments.solver == nullptr) throw BadCall("create: the name of the solver is null");
+  const SolverEntry& solver = FindSolver(arguments.solver);
+  if (arguments.option_count > kMostOptions) {
+    throw Error(fmt::format("create: {} options, at most {} are read", arguments.option_count, kMostOptions));
+  }
+  if (arguments.option_count > 0 && (arguments.option_names == nullptr || arguments.option_values == nullptr)) {
+    throw BadCall(fmt::format("create: {} options, but option_names or option_values is null", arguments.option_count));
+  }
+  OptionTexts texts;
+  for (std::uint64_t i = 0; i < arguments.option_count; ++i) {
+    const char* name = arguments.option_names[i];
+    const char* value = arguments.option_values[i];
+    if (name == nullptr || value == nullptr) throw BadCall(fmt::format("create: name or value of option {} is null", i));
+    texts.emplace_back(name, value);
+  }
+  return MakeSettings(solver, texts);
+}
+
+PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
+  return std::visit(
+      [](const auto& options) {
+        if constexpr (requires { options.partition; }) return options.partition;
+        return PartitionOptions{};
+      },
+      algorithm);
+}
+
+}  // namespace
+
+SolverHandle::SolverHandle(const nscdd_create_arguments& arguments) : communicator_(MakeCommunicator(arguments)) {
+  RunTogether(communicator_.get(), [&] {
+    settings_ = ReadSettings(arguments);
+    if (arguments.host != nullptr) adapter_ = std::make_unique<CallbackAdapter>(arguments.host);
+  });
+  if (adapter_ == nullptr) return;
+  stepper_ = std::make_unique<TimeStepper>(settings_.stepping, settings_.algorithm, adapter_.get(), communicator_.get());
+}
+
+TimeStepper& SolverHandle::stepper(const char* function) const {
+  if (stepper_ != nullptr) return *stepper_;
+  throw BadCall(
+      fmt::format("{}: this handle was created without a host and only solves single problems; give create a host", function));
+}
+
+void SolverHandle::Step(double dt) {
+  TimeStepper& stepper = this->stepper("step");
+  if (!std::isfinite(dt) || dt <= 0.0) throw Error(fmt::format("step: dt is {} s, must be finite and > 0", dt));
+  last_ = Last::kNothing;
+  try {
+    report_ = stepper.Step(dt);
+  } catch (const Error& e) {
+    throw Failure(e.what());  // the arguments were fine: what failed is the host, the transport or the arithmetic
+  }
+  last_ = Last::kStep;
+}
+
+void SolverHandle::Solve(const nscdd_problem& problem, nscdd_solution* solution) {
+  const SingleProblem single = CopyProblem(problem, PartitionOf(settings_.algorithm));
+  const ContactTable& contacts = single.problem.contacts;
+  if ((solution->velocity == nullptr && !single.problem.mass.empty()) ||
+      (solution->impulse == nullptr && contacts.size() > 0)) {
+    throw BadCall("solve: velocity or impulse of nscdd_solution is null; give arrays for the answer");
+  }
+  last_ = Last::kNothing;
+  ContactSolution answer = SolveContactProblem(single.problem, settings_.algorithm, single.warm);
+  CopySolution(answer, solution);
+  report_ = {};
+  report_.solve = std::move(answer.report);
+  for (const double mass : single.problem.mass) report_.bodies += std::isfinite(mass) ? 1 : 0;
+  last_ = Last::kSolve;
+}
+
+void SolverHandle::Report(nscdd_report* report) const {
+  if (last_ == Last::kNothing) throw BadCall("report: there is no finished step or solve to report; call step or solve first");
+  nscdd_report copy = *report;
+  CopyReport(report_, &copy);
+  *report = copy;
+}
+
+void SolverHandle::Table(std::string_view name, nscdd_table* table) {
+  if (last_ == Last::kNothing) throw BadCall("table: there is no finished step or solve to show; call step or solve first");
+  const bool of_step = name == "bodies" || name == "contacts";
+  if (!of_step && name != "iterations") {
+    throw Error(fmt::format("table: there is no table '{}'; take bodies, contacts or iterations", name.substr(0, 64)));
+  }
+  if (of_step && last_ != Last::kStep) throw BadCall(fmt::format("table: '{}' is there after a step, not after a solve", name));
+  if (name == "bodies") table_.FillBodies(stepper_->bodies());
+  if (name == "contacts") table_.FillContacts(stepper_->contacts());
+  if (name == "iterations") table_.FillIterations(report_.solve.history);
+  table_.Show(table);
+}
+
+std::vector<std::byte> SolverHandle::SaveState() const { return stepper("save_state").SaveState(); }
+
+void SolverHandle::LoadState(const void* bytes, std::uint64_t size) {
+  stepper("load_state").LoadState({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
+}
+
+}  // namespace nscdd

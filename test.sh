@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# ./test.sh [PRESET]   installs what is missing, builds the preset and runs all tests.
+# PRESET: release (the default), dev, audit or asan; see CMakePresets.json.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+source .ci/setup.sh
+
+preset=${1:-release}
+case $preset in
+  release | dev | audit | asan) ;;
+  *)
+    echo "There is no preset '$preset'. Usage: ./test.sh [release|dev|audit|asan]" >&2
+    exit 2
+    ;;
+esac
+if (($# > 1)); then
+  echo "One preset at a time. Usage: ./test.sh [release|dev|audit|asan]" >&2
+  exit 2
+fi
+
+install_packages
+build "$preset"
+if [[ $preset == asan ]]; then source tests/sanitizers/options.sh; fi
+exec ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error

@@ -1,0 +1,180 @@
+#include "nscdd/host/solver.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "expect_error.h"
+#include "validator/two_disk_host.h"
+
+namespace nscdd {
+namespace {
+
+constexpr double kTimeStep = 0.05;
+
+Solver Make(const std::string& name, const std::vector<std::pair<std::string, std::string>>& options,
+            const nscdd_host* host = nullptr) {
+  return Solver(PluginLibrary::Load(PLUGIN_FILE), {.solver = name, .options = options, .host = host, .communicator = {}});
+}
+
+// A column of `count` disks of radius 0.5 and mass 1 on a fixed body; contact k joins bodies k and k + 1.
+ContactProblem Column(int count) {
+  constexpr double kWeight = 9.81 * 0.01;
+  const double infinite = std::numeric_limits<double>::infinity();
+  ContactProblem p;
+  p.mass.assign(static_cast<std::size_t>(count) + 1, 1.0);
+  p.inertia.assign(p.mass.size(), 0.125);
+  p.mass[0] = p.inertia[0] = infinite;
+  p.free_velocity.assign(p.mass.size(), Twist{0.0, -kWeight, 0.0});
+  p.impulse.assign(p.mass.size(), Wrench{0.0, -kWeight, 0.0});
+  p.free_velocity[0] = {};
+  p.impulse[0] = {};
+  for (int k = 0; k < count; ++k) {
+    p.contacts.a.push_back(k);
+    p.contacts.b.push_back(k + 1);
+    p.contacts.shape_a.push_back(0);
+    p.contacts.shape_b.push_back(0);
+    p.contacts.gap.push_back(0.0);
+    p.contacts.normal.push_back({0.0, 1.0});
+    p.contacts.lever_a.push_back(0.5);
+    p.contacts.lever_b.push_back(0.5);
+    p.contacts.site.push_back({0.0, static_cast<double>(k)});
+    p.contacts.flat.push_back(0);
+    p.contacts.friction.push_back(0.3);
+    p.contacts.restitution.push_back(0.0);
+    p.offset.push_back(0.0);
+  }
+  return p;
+}
+
+TEST(Solver, SolvesAColumnOnSeveralSubdomains) {
+  const ContactProblem p = Column(4);
+  const std::vector<std::pair<std::string, std::string>> sharp = {{"tolerance", "1e-12"}, {"max_iterations", "100000"}};
+  auto options = sharp;
+  options.emplace_back("subdomains", "1x2");
+  const ContactSolution one = Make("nscd", sharp).Solve(p), two = Make("nscdd", options).Solve(p);
+  EXPECT_EQ(one.report.subdomains, 1);
+  EXPECT_EQ(two.report.subdomains, 2);
+  EXPECT_EQ(two.report.interface_bodies, 1);
+  EXPECT_EQ(two.report.max_multiplicity, 2);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(one.impulse[k].x, 9.81 * 0.01 * static_cast<double>(4 - k), 1e-9);
+    EXPECT_NEAR(two.impulse[k].x, one.impulse[k].x, 1e-9);
+  }
+  EXPECT_EQ(one.report.status, SolveStatus::kConverged);
+  EXPECT_GT(one.report.history.size(), 0u);
+  EXPECT_EQ(one.report.history.back().iteration, one.report.iterations);
+  EXPECT_EQ(one.report.history.back().nat, one.report.residuals.nat);
+}
+
+TEST(Solver, StartsWarm) {
+  const ContactProblem p = Column(4);
+  const ContactSolution cold = Make("nscd", {{"tolerance", "1e-10"}}).Solve(p);
+  const ContactSolution warm = Make("nscd", {{"tolerance", "1e-9"}}).Solve(p, cold.impulse);
+  EXPECT_LE(warm.report.iterations, 5);
+  EXPECT_GT(cold.report.iterations, 5);
+}
+
+TEST(Solver, NeedsSitesForSeveralSubdomains) {
+  Solver solver = Make("nscdd", {{"subdomains", "2x1"}});
+  ContactProblem p = Column(1);
+  p.contacts.site[0].x = std::numeric_limits<double>::quiet_NaN();
+  ExpectError([&] { solver.Solve(p); }, {"contact 0", "site is not finite"});
+  p.subdomain = {0};
+  ExpectError([&] { solver.Solve(p); }, {"leave `subdomain` empty"});
+}
+
+TEST(Solver, SpeaksWhenItRefuses) {
+  ExpectError([] { Make("nscd", {{"tolerance", "-1"}}); }, {"option 'tolerance' is '-1'"});
+  ExpectError([] { Make("newton", {}); }, {"no solver 'newton'", "nscd, nscdd"});
+  Solver solver = Make("nscd", {});
+  ExpectError([&] { solver.Step(0.1); }, {"step", "without a host"});
+  ExpectError([&] { solver.Report(); }, {"report", "call step or solve first"});
+  ExpectError([&] { solver.Table("iterations"); }, {"table", "call step or solve first"});
+  solver.Solve(Column(2));
+  EXPECT_EQ(solver.Table("iterations").Integer("iteration").size(), solver.Table("iterations").rows());
+  ExpectError([&] { solver.Table("bodies"); }, {"'bodies' is there after a step"});
+  ExpectError([&] { solver.Table("iterations").Real("colour"); }, {"no column 'colour'"});
+  ExpectError([&] { solver.Table("iterations").Real("iteration"); }, {"integer, not real"});
+}
+
+TEST(Solver, KeepsThePluginLoaded) {
+  TwoDiskHost host;
+  auto library = PluginLibrary::Load(PLUGIN_FILE);
+  Solver solver(library, {.solver = "nscd", .options = {}, .host = host.table(), .communicator = {}});
+  library.reset();
+  solver.Step(kTimeStep);
+  EXPECT_EQ(host.commits(), 1);
+}
+
+TEST(Solver, RefusesACommunicatorWithoutMpi) {
+  ExpectError(
+      [] {
+        Solver solver(PluginLibrary::Load(PLUGIN_FILE), {.solver = "nscd", .options = {}, .host = nullptr, .communicator = 0});
+      },
+      {"MPI is not running"});
+}
+
+TEST(Solver, ShowsTablesOfAStep) {
+  TwoDiskHost host;
+  Solver solver = Make("nscd", {{"alert_distance", "5"}}, host.table());
+  solver.Step(kTimeStep);
+  const TableView bodies = solver.Table("bodies");
+  ASSERT_EQ(bodies.rows(), 2u);
+  EXPECT_EQ(bodies.Integer("id")[0], 3);
+  EXPECT_EQ(bodies.Real("x")[0], host.pose()[0]);
+  EXPECT_EQ(bodies.Real("vx")[1], host.velocity()[3]);
+  const TableView contacts = solver.Table("contacts");
+  ASSERT_EQ(contacts.rows(), 1u);
+  EXPECT_EQ(contacts.Integer("body_b")[0], 7);
+  EXPECT_EQ(contacts.Integer("status")[0], 0);
+  EXPECT_NEAR(contacts.Real("final_gap")[0], host.gap(), 1e-14);
+  const StepReport report = solver.Report();
+  EXPECT_EQ(report.bodies, 2);
+  EXPECT_EQ(report.alert_distance, 5.0);
+  EXPECT_NEAR(report.kinetic_energy, TwoDiskHost::kMass, 1e-12);
+  EXPECT_NEAR(report.time, kTimeStep, 1e-15);
+}
+
+// A host that calls the plugin again while the plugin calls it.
+TEST(Solver, RefusesToBeReentered) {
+  struct Context {
+    TwoDiskHost inner;
+    const nscdd_host* inner_table = nullptr;
+    Solver* solver = nullptr;
+    bool refused = false;
+  } context;
+  context.inner_table = context.inner.table();
+  nscdd_host table = *context.inner_table;
+  table.user = &context;
+  table.describe = [](void* u, nscdd_host_description* d) {
+    auto* c = static_cast<Context*>(u);
+    return c->inner_table->describe(c->inner_table->user, d);
+  };
+  table.read_bodies = [](void* u, nscdd_bodies* b) {
+    auto* c = static_cast<Context*>(u);
+    try {
+      c->solver->Step(kTimeStep);
+    } catch (const Error&) {
+      c->refused = true;
+    }
+    return c->inner_table->read_bodies(c->inner_table->user, b);
+  };
+  table.detect_contacts = [](void* u, std::uint64_t n, const std::int64_t* id, const double* q, double alert,
+                             nscdd_contacts* t) {
+    auto* c = static_cast<Context*>(u);
+    return c->inner_table->detect_contacts(c->inner_table->user, n, id, q, alert, t);
+  };
+  table.commit = [](void* u, const nscdd_step_result* r) {
+    auto* c = static_cast<Context*>(u);
+    return c->inner_table->commit(c->inner_table->user, r);
+  };
+  Solver solver = Make("nscd", {}, &table);
+  context.solver = &solver;
+  solver.Step(kTimeStep);
+  EXPECT_TRUE(context.refused);
+  EXPECT_EQ(context.inner.commits(), 1);
+}
+
+}  // namespace
+}  // namespace nscdd

@@ -1,0 +1,76 @@
+"""The rules of the project's structure, as data."""
+
+# Parts by folder; the longest prefix wins. Tests may include anything.
+PARTS = {
+    "core/include": "core",
+    "core/src": "core inside",
+    "adapters/reference": "reference adapter",
+    "adapters/box2d": "Box2D adapter",
+    "adapters/callback": "callback adapter",
+    "adapters/conformance": "conformance suite",
+    "plugin/include": "plugin interface",
+    "plugin/host": "plugin host",
+    "plugin/src": "plugin",
+    "plugin/runner": "runner",
+}
+
+# Where an #include "..." of a part is looked for, beside the file's own folder.
+INCLUDE_FOLDERS = {
+    "core": ["core/include"],
+    "core inside": ["core/src"],
+    "reference adapter": ["adapters/reference/include", "adapters/reference/src"],
+    "Box2D adapter": ["adapters/box2d/include", "adapters/box2d/src"],
+    "callback adapter": ["adapters/callback/include", "adapters/callback"],
+    "conformance suite": ["adapters/conformance/include", "adapters/conformance/src"],
+    "plugin interface": ["plugin/include"],
+    "plugin host": ["plugin/host/include", "plugin/host"],
+    "plugin": ["plugin/src"],
+    "runner": ["plugin/runner"],
+}
+
+# What each part may include of the others.
+MAY_INCLUDE = {
+    "core": set(),
+    "core inside": {"core"},
+    "reference adapter": {"core"},
+    "Box2D adapter": {"core"},
+    "callback adapter": {"core", "plugin interface"},
+    "conformance suite": {"core"},
+    "plugin interface": set(),
+    "plugin host": {"core", "plugin interface"},
+    "plugin": {"core", "core inside", "plugin interface", "callback adapter"},
+    "runner": {"core", "plugin interface", "plugin host", "reference adapter", "Box2D adapter"},
+}
+
+# Headers of other projects that only some files may include: (what the name begins with, who may, why).
+FOREIGN_HEADERS = [
+    ("mpi.h",
+     ("core/include/nscdd/mpi_communicator.h", "core/src/parallel/mpi_", "plugin/src/", "plugin/runner/",
+      "plugin/host/mpi_library.c", "tests/"),
+     "MPI reaches the method through a Communicator only"),
+    ("box2d/", ("adapters/box2d/", "plugin/runner/", "tests/"), "Box2D is one platform among others"),
+    ("dmumps", ("core/src/linear/mumps_", "tests/"), "MUMPS is behind the LinearSolver seam"),
+    ("Eigen/", ("core/src/", "tests/"), "Eigen stays inside the core"),
+]
+
+# Solving is the plugin's business: these may see the core's tables and reports, but not its solvers.
+SOLVER_HEADERS = ("nscdd/time_stepper.h", "nscdd/contact_solver.h")
+THROUGH_THE_PLUGIN = ("plugin/host/", "plugin/runner/")
+
+# Text that must not occur: (regular expression, where, where not, why).
+FORBIDDEN_TEXT = [
+    (r"(?i)box2d", ("core/",), (), "the core knows no platform"),
+    (r"\bMPI_COMM_WORLD\b|\bMPI_(Init|Init_thread|Finalize)\(", ("core/", "adapters/", "plugin/src/"), (),
+     "a library does not own MPI; the communicator is passed in"),
+    (r"std::c(out|err)\b|\bf?printf\(|\bfmt::print\(", ("core/", "plugin/src/", "adapters/"),
+     ("adapters/conformance/", "adapters/box2d/example/", "README.md"),
+     "a library prints nothing"),
+]
+
+TOP_LEVEL = {
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CONTRIBUTING.md", "demo.sh", "test.sh",
+    "core", "plugin", "adapters", "tests", "sample_scenes",
+}
+NOT_IN_GIT = {"build", "results", "compile_commands.json"}
+
+PLUGIN_SYMBOLS = ["nscdd_plugin_entry"]

@@ -1,0 +1,97 @@
+"""The checks themselves: a small sound tree passes, and each way to spoil it is found. structure_test.py SHARED_LIBRARY"""
+
+import pathlib
+import shutil
+import sys
+import tempfile
+import unittest
+
+import rules
+import structure
+
+SOUND = {
+    "core/include/nscdd/body_table.h": "#pragma once\n#include <vector>\n",
+    "core/include/nscdd/time_stepper.h": '#include "nscdd/body_table.h"\n',
+    "core/include/nscdd/mpi_communicator.h": "#include <mpi.h>\n",
+    "core/src/nlgs/sweep.h": '#include "nscdd/body_table.h"\n',
+    "core/src/nlgs/sweep.cpp": '#include "nlgs/sweep.h"\n#include <Eigen/Core>\n',
+    "core/src/parallel/mpi_communicator.cpp": '#include "nscdd/mpi_communicator.h"\n#include <mpi.h>\n',
+    "adapters/box2d/src/store.cpp": '#include <box2d/box2d.h>\n#include "nscdd/body_table.h"\n',
+    "adapters/callback/callback.cpp": '#include "nscdd_plugin.h"\n#include "nscdd/body_table.h"\n',
+    "adapters/callback/include/nscdd/callback/callback.h": "",
+    "plugin/include/nscdd_plugin.h": "#include <stdint.h>\n",
+    "plugin/host/include/nscdd/host/solver.h": '#include "nscdd_plugin.h"\n',
+    "plugin/src/entry.cpp": '#include "nscdd/callback/callback.h"\n#include "nlgs/sweep.h"\n#include "nscdd/time_stepper.h"\n',
+    "plugin/runner/main.cpp": '#include "nscdd/host/solver.h"\n#include "nscdd/body_table.h"\n#include <mpi.h>\n',
+    "tests/unit/any_test.cpp": '#include "nlgs/sweep.h"\n#include <mpi.h>\n',
+}
+
+# File, line to add, what the finding says.
+SPOILED = [
+    ("core/src/nlgs/sweep.cpp", '#include "nscdd/callback/callback.h"', "not callback adapter"),
+    ("core/src/nlgs/sweep.cpp", '#include "nscdd_plugin.h"', "not plugin interface"),
+    ("core/src/nlgs/sweep.cpp", "#include <mpi.h>", "through a Communicator"),
+    ("core/src/nlgs/sweep.cpp", "#include <dmumps_c.h>", "LinearSolver seam"),
+    ("core/src/nlgs/sweep.cpp", "// as in BOX2D", "knows no platform"),
+    ("core/src/nlgs/sweep.cpp", 'std::cout << "here";', "prints nothing"),
+    ("core/src/nlgs/sweep.cpp", '#include "nlgs/lost.h"', "in no part of the project"),
+    ("core/src/parallel/mpi_communicator.cpp", "auto world = MPI_COMM_WORLD;", "does not own MPI"),
+    ("core/include/nscdd/body_table.h", '#include "nlgs/sweep.h"', "not core inside"),
+    ("core/include/nscdd/body_table.h", "#include <Eigen/Core>", "stays inside the core"),
+    ("core/include/nscdd/body_table.h", "#include <nscdd/time_stepper.h>", 'write "..."'),
+    ("adapters/box2d/src/store.cpp", '#include "nscdd_plugin.h"', "not plugin interface"),
+    ("adapters/box2d/src/store.cpp", '#include "nlgs/sweep.h"', "not core inside"),
+    ("adapters/callback/callback.cpp", '#include "nscdd/host/solver.h"', "not plugin host"),
+    ("adapters/callback/callback.cpp", "#include <box2d/box2d.h>", "one platform among others"),
+    ("plugin/src/entry.cpp", '#include "nscdd/host/solver.h"', "not plugin host"),
+    ("plugin/runner/main.cpp", '#include "nscdd/time_stepper.h"', "through the loaded plugin"),
+    ("plugin/runner/main.cpp", '#include "nlgs/sweep.h"', "not core inside"),
+    ("notes.txt", "", "notes.txt lies in the project's root"),
+]
+
+
+class StructureTest(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.root)
+        for name in rules.TOP_LEVEL:
+            if "." in name or name == "LICENSE":
+                (self.root / name).write_text("")
+            else:
+                (self.root / name).mkdir()
+        for name, text in SOUND.items():
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / name).write_text(text)
+
+    def test_a_sound_tree_passes(self):
+        self.assertEqual(structure.check_tree(self.root), [])
+
+    def test_each_fault_is_found(self):
+        for name, line, sentence in SPOILED:
+            with self.subTest(name=name, line=line):
+                file = self.root / name
+                before = file.read_text() if file.exists() else None
+                file.write_text((before or "") + line + "\n")
+                findings = structure.check_tree(self.root)
+                self.assertEqual(len(findings), 1, findings)
+                self.assertIn(sentence, findings[0])
+                self.assertIn(name, findings[0])
+                if before is None:
+                    file.unlink()
+                else:
+                    file.write_text(before)
+
+    def test_a_missing_file_is_found(self):
+        (self.root / "LICENSE").unlink()
+        self.assertEqual(structure.check_tree(self.root), ["LICENSE is missing in the project's root."])
+
+    def test_other_symbols_are_found(self):
+        findings = list(structure.check_plugin_symbols(SHARED_LIBRARY))
+        self.assertEqual(len(findings), 1)
+        self.assertIn("must export nscdd_plugin_entry alone", findings[0])
+        self.assertIn("nm cannot read", next(structure.check_plugin_symbols(__file__)))
+
+
+if __name__ == "__main__":
+    SHARED_LIBRARY = sys.argv.pop(1)
+    unittest.main()

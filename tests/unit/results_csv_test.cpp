@@ -1,0 +1,122 @@
+// steps.csv and final.csv.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "results/final_csv.h"
+#include "results/steps_csv.h"
+#include "results_sample.h"
+
+namespace nscdd {
+namespace {
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+TEST(StepsCsv, HeaderBeginsAsPromisedAndRowsFitIt) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  StepsCsv steps(&results);
+  StepRow row;
+  row.step = 12;
+  row.time = 0.1;
+  row.contacts = 34;
+  row.status = "iteration_limit";
+  row.nat = std::nextafter(1e-4, 1.0);
+  row.interface_jump = std::numeric_limits<double>::quiet_NaN();
+  row.reason = "10000 iterations, \"limit\"\nreached";
+  steps.Append(row);
+  const std::vector<std::string> while_running = Split(TextOf(folder.path() / "steps.csv.part"), '\n');
+  ASSERT_EQ(while_running.size(), 2u);
+  steps.Append(row);
+  steps.Close();
+  results.Finish();
+
+  const std::vector<std::string> lines = Split(TextOf(folder.path() / "steps.csv"), '\n');
+  ASSERT_EQ(lines.size(), 3u);
+  const std::string promised =
+      "step,time,contacts,active,iterations,status,nat,nat_max,qm16,interface_jump,mean_interpenetration,max_interpenetration,"
+      "kinetic_energy,momentum_x,momentum_y,seconds_detect,seconds_solve,seconds_communicate,";
+  EXPECT_EQ(lines[0].substr(0, promised.size()), promised);
+  const std::vector<std::string> cells = Split(lines[1], ',');
+  ASSERT_EQ(cells.size(), Split(lines[0], ',').size());
+  EXPECT_EQ(cells[0], "12");
+  EXPECT_EQ(cells[1], "0.1");
+  EXPECT_EQ(cells[2], "34");
+  EXPECT_EQ(cells[5], "iteration_limit");
+  EXPECT_EQ(std::stod(cells[6]), row.nat);  // every bit survives
+  EXPECT_EQ(cells[9], "nan");
+  EXPECT_EQ(cells.back(), "10000 iterations;  limit  reached");
+}
+
+TEST(StepsCsv, WhatDependsOnTheRanksIsElsewhere) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  StepsCsv steps(&results);
+  StepRow row;
+  steps.Append(row);
+  row.messages = row.message_bytes = row.collectives = row.migrated_bodies = 77;
+  steps.Append(row);
+  const std::vector<std::string> lines = Split(TextOf(folder.path() / "steps.csv.part"), '\n');
+  EXPECT_EQ(lines[1], lines[2]);
+}
+
+TEST(FinalCsv, SortedWithSeventeenDigits) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  WriteFinalCsv(&results, SampleGrains());
+  results.Finish();
+  EXPECT_EQ(TextOf(folder.path() / "final.csv"),
+            "id,x,y,angle,vx,vy,spin\n"
+            "7,1,1,0.20000000000000001,0.33333333333333331,0.5,0\n"
+            "9,3,1,-0.29999999999999999,-2,0,-0\n"
+            "30,5,1,0.10000000000000001,0,0,1e-300\n"
+            "40,3,0,0,0,0,0\n");
+}
+
+TEST(FinalCsv, ChunksGiveTheSameFile) {
+  const TemporaryFolder folder;
+  GrainTable grains;
+  for (std::int64_t i = 0; i < 1000; ++i) grains.id.push_back((i * 7919) % 1000 * 9'000'000'000'000'000);
+  for (auto* column : {&grains.x, &grains.y, &grains.angle, &grains.vx, &grains.vy, &grains.spin}) {
+    column->resize(1000);
+    std::iota(column->begin(), column->end(), 0.5);
+  }
+  const auto text_with = [&](int rows_at_a_time) {
+    ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+    WriteFinalCsv(&results, grains, rows_at_a_time);
+    results.Finish();
+    return TextOf(folder.path() / "final.csv");
+  };
+  const std::string whole = text_with(100000);
+  EXPECT_EQ(Split(whole, '\n').size(), 1001u);
+  EXPECT_EQ(text_with(1), whole);
+  EXPECT_EQ(text_with(333), whole);
+  EXPECT_EQ(text_with(1000), whole);
+}
+
+TEST(FinalCsv, IdsThatComeTwiceAreRefused) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  GrainTable grains = SampleGrains();
+  grains.id[3] = 9;
+  EXPECT_NE(SentenceOf([&] { WriteFinalCsv(&results, grains); }).find("two bodies have the id 9"), std::string::npos);
+}
+
+TEST(FinalCsv, NoBodies) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  WriteFinalCsv(&results, {});
+  results.Finish();
+  EXPECT_EQ(TextOf(folder.path() / "final.csv"), "id,x,y,angle,vx,vy,spin\n");
+}
+
+}  // namespace
+}  // namespace nscdd
