@@ -33,7 +33,8 @@ TEST_P(Identities, MeanOfCopiesIsTheGlobalVelocity) {
   o.stopping.tolerance = 1e-300;
   SerialCommunicator serial;
   PartitionedState state = InitialState(sample.problem, {});
-  Solve(sample.problem, o, &serial, &state);
+  InterfaceWorkspace workspace;
+  Solve(sample.problem, o, &serial, &workspace, &state);
   for (std::size_t e = 0; e < sample.problem.subdomains.size(); ++e) {
     Sweep(sample.problem.subdomains[e], &state.subdomains[e]);  // the copies disagree again
   }

@@ -17,6 +17,7 @@ class MpiCommunicator final : public Communicator {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
+  MPI_Comm handle() const { return comm_; }
   void AllReduceMin(std::span<double> values) override;
   std::vector<double> AllGather(std::span<const double> values) override;
   void Broadcast(int root, std::vector<std::byte>* bytes) override;

@@ -59,6 +59,76 @@ struct NscddOptions {
   int sweeps_per_stage = 1;  ///< n_GS
 };
 
-using AlgorithmOptions = std::variant<NscdOptions, NscddOptions>;
+/// Columns of G, the contacts that the linear interface problem sees: active ones (r_n > 0), their
+enum class Compatibility {
+  kNormal,    ///< normals (the paper's G', default)
+  kFull,      ///< normals and tangents (G)
+  kSticking,  ///< normals, and tangents of sticking contacts
+};
+
+/// Which v_E enters the search direction (r~ - r) + Lambda (v~ - v) = 0.
+enum class LocalVelocity {
+  kLocal,    ///< what each local solve of the last sweep left: -b_n on active normals
+  kCurrent,  ///< G^T V_E after the sweep
+};
+
+/// What lambda multiplies.
+enum class LambdaScale {
+  kMass,     ///< one reference mass
+  kContact,  ///< 1 / W_nn of each contact (undivided masses)
+};
+
+enum class InterfaceSolve {
+  kDirect,  ///< assembled primal matrix M + Lambda G G^T, factorised
+  kCg,      ///< conjugate gradient on X_lambda (Algorithms 5 and 6), neighbours only
+};
+
+enum class Preconditioner { kNone, kDiagonal, kLumped, kDirichlet };
+
+enum class LinearLibrary { kAuto, kEigen, kMumps };
+
+/// The augmented interface problem  X_lambda F = sum_E A_E M_lambda,E^-1 y_E.
+struct AugmentedInterfaceOptions {
+  double lambda = 10.0;  ///< [-] search direction over the reference mass, 0 to 1e8; 0: the plain interface of NSCDD
+  Compatibility compatibility = Compatibility::kNormal;
+  LocalVelocity local_velocity = LocalVelocity::kLocal;
+  LambdaScale lambda_scale = LambdaScale::kMass;
+  double reference_mass = 0.0;  ///< [kg] 0: mean mass of the free bodies
+  InterfaceSolve solve = InterfaceSolve::kDirect;
+  LinearLibrary library = LinearLibrary::kAuto;
+  Preconditioner preconditioner = Preconditioner::kLumped;
+  double cg_tolerance = 1e-4;  ///< [-] fall of the jump of the augmented velocities in one update
+  int cg_max_iterations = 2000;
+};
+
+/// Fully enriched algorithm, Algorithm 2: NSCDD with the augmented interface in stage 2.
+struct FeaOptions {
+  StoppingOptions stopping;
+  PartitionOptions partition;
+  int sweeps_per_stage = 5;  ///< n_GS
+  AugmentedInterfaceOptions interface;
+};
+
+/// Relaxed enriched algorithm, Algorithm 3: iterates like FEA until the interface alone converges, then in each subdomain with the
+/// interface impulses frozen.
+struct ReaOptions {
+  StoppingOptions stopping;  ///< of the subdomains; its tolerance is also that of the relative jump
+  PartitionOptions partition;
+  int sweeps_per_stage = 5;
+  int max_interface_updates = 2000;
+  AugmentedInterfaceOptions interface;
+};
+
+/// Incomplete enriched algorithm, Algorithm 4: one sweep for the status of the contacts, one interface solve, then each subdomain by
+/// itself. What remains at the interface is reported, and may be reduced by the last two options.
+struct IeaOptions {
+  StoppingOptions stopping;  ///< of the subdomains; max_iterations is the cap on their sweeps
+  PartitionOptions partition;
+  AugmentedInterfaceOptions interface;
+  int polish_sweeps = 0;    ///< closing sweeps of the contacts of interface bodies, mean velocity between two
+  int closing_updates = 0;  ///< closing iterations of NSCDD ("hybrid")
+};
+
+using AlgorithmOptions = std::variant<NscdOptions, NscddOptions, FeaOptions, ReaOptions, IeaOptions>;
 
 }  // namespace nscdd

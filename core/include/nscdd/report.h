@@ -13,7 +13,9 @@ enum class SolveStatus {
   kConverged,       ///< the criterion fell below its tolerance (or there was no contact)
   kIterationLimit,  ///< max_iterations reached first
   kStalled,         ///< no new minimum of the residual for stall_iterations iterations
-  kDiverged,        ///< the residual is not finite, or above 1e6 times the first one and above 1; impulses are then zero
+  kDiverged,        ///< the residual is not finite, or above 1e6 times the first one and above 1; the best tested iterate is
+                    ///< returned where the solver can diverge (augmented interface), else zero impulses
+  kIncomplete,      ///< an incomplete resolution (REA, IEA) did all that it does; the criterion does not hold for the whole sample
 };
 
 /// Natural residuals of the global problem at the end, and what the last tested sweep changed. Definitions: residual.h.
@@ -42,8 +44,14 @@ struct SolveReport {
   SolveStatus status = SolveStatus::kConverged;
   std::string reason;             ///< one clause: why it stopped
   Residuals residuals;
-  int iterations = 0;             ///< sweeps (NSCD) or interface updates (NSCDD)
-  std::int64_t sweeps = 0;        ///< sweeps of every contact
+  int iterations = 0;             ///< sweeps (NSCD), interface updates (NSCDD, FEA), these and the local sweeps (REA), local sweeps (IEA)
+  std::int64_t sweeps = 0;        ///< sweeps of every contact (of the subdomain that needed most, where they differ)
+  std::int64_t interface_updates = 0;  ///< stages 2
+  std::int64_t cg_iterations = 0;      ///< of all updates
+  std::int64_t cg_failures = 0;        ///< updates in which the conjugate gradient met its iteration limit
+  std::int64_t analyses = 0;           ///< symbolic factorisations, of this rank
+  std::int64_t factorisations = 0;     ///< numeric ones, of this rank
+  double seconds_interface = 0.0;      ///< in the augmented interface, this rank
   std::int64_t contacts = 0;      ///< candidates
   std::int64_t active = 0;        ///< r_n > 0
   std::int64_t sticking = 0;      ///< active, |r_t| < mu r_n

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "nlgs/local_solve.h"
+#include "nlgs/sweep.h"
 #include "parallel/ordered_reduction.h"
 
 namespace nscdd {
@@ -40,8 +41,8 @@ void Describe(const PartitionedProblem& problem, SolveReport* report) {
 
 }  // namespace
 
-Monitor::Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator)
-    : problem_(problem), options_(options), communicator_(communicator) {
+Monitor::Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator, bool keep_best)
+    : problem_(problem), options_(options), communicator_(communicator), keep_best_(keep_best) {
   Describe(problem, &report_);
 }
 
@@ -81,15 +82,66 @@ void Monitor::Stop(SolveStatus status, std::string reason) {
   report_.reason = std::move(reason);
 }
 
+double Monitor::CriterionNow() const {
+  const Residuals& r = report_.residuals;
+  const double measure = nscdd::Measure(options_.criterion, r);
+  if (SeesTheInterface(options_.criterion) || r.relative_jump == INFINITY) return measure;
+  return std::max(measure, r.relative_jump);
+}
+
+void Monitor::KeepBest(const PartitionedState& state) {
+  if (!keep_best_) return;
+  best_residuals_ = report_.residuals;
+  best_impulse_.resize(state.subdomains.size());
+  for (std::size_t e = 0; e < best_impulse_.size(); ++e) best_impulse_[e] = state.subdomains[e].impulse;
+}
+
+void Monitor::RestoreBest(PartitionedState* state) {
+  const bool kept = !best_impulse_.empty() && std::isfinite(best_residuals_.nat);
+  if (kept) report_.residuals = best_residuals_;
+  for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
+    SubdomainState& s = state->subdomains[e];
+    if (kept) {
+      s.impulse = best_impulse_[e];
+    } else {
+      std::fill(s.impulse.begin(), s.impulse.end(), 0.0);
+    }
+    ComputeVelocity(problem_.subdomains[e], &s);
+  }
+  std::fill(state->interface.impulse.begin(), state->interface.impulse.end(), 0.0);
+}
+
+const Residuals& Monitor::Measure(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
+                                  const PartitionedState& state) {
+  MeasureAll(statistics, jumps, state);
+  return report_.residuals;
+}
+
+void Monitor::Conclude(bool subdomains_converged) {
+  const double measure = CriterionNow();
+  const char* name = Name(options_.criterion);
+  if (measure <= options_.tolerance) {
+    Stop(SolveStatus::kConverged, fmt::format("{} is below the tolerance {:.3g}", name, options_.tolerance));
+  } else if (!std::isfinite(measure)) {
+    Stop(SolveStatus::kDiverged, fmt::format("{} is {}", name, measure));
+  } else if (subdomains_converged) {
+    Stop(SolveStatus::kIncomplete, fmt::format("every subdomain converged, {} of the sample is {:.3g}", name, measure));
+  } else {
+    Stop(SolveStatus::kIncomplete, fmt::format("sweeps of the subdomains reached their cap, {} of the sample is {:.3g}", name, measure));
+  }
+}
+
 bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
                     const PartitionedState& state) {
   MeasureAll(statistics, jumps, state);
   const Residuals& r = report_.residuals;
   report_.history.push_back({iteration, r.nat, r.nat_max, r.qm16, r.interface_jump});
-  double measure = Measure(options_.criterion, r);
-  if (!SeesTheInterface(options_.criterion)) measure = std::max(measure, r.relative_jump == INFINITY ? 0.0 : r.relative_jump);
+  const double measure = CriterionNow();
   const char* name = Name(options_.criterion);
-  if (first_ < 0.0) first_ = best_ = measure;
+  if (first_ < 0.0) {
+    first_ = best_ = measure;
+    KeepBest(state);
+  }
 
   if (!std::isfinite(r.nat) || !std::isfinite(r.nat_max) || (measure > 1.0 && measure > 1e6 * first_)) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g} after {:.3g} at the first test", name, measure, first_));
@@ -102,6 +154,7 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
   if (measure < best_) {
     best_ = measure;
     best_iteration_ = iteration;
+    KeepBest(state);
   }
   if (iteration >= options_.max_iterations) {
     Stop(SolveStatus::kIterationLimit,
@@ -185,13 +238,7 @@ SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedStat
   report_.iterations = iterations;
   report_.sweeps = sweeps;
   FindWorst(*state);
-  if (report_.status == SolveStatus::kDiverged) {
-    for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
-      std::fill(state->subdomains[e].impulse.begin(), state->subdomains[e].impulse.end(), 0.0);
-      state->subdomains[e].velocity = problem_.subdomains[e].free_velocity;
-    }
-    std::fill(state->interface.impulse.begin(), state->interface.impulse.end(), 0.0);
-  }
+  if (has_diverged()) RestoreBest(state);
   CountContacts(*state);
   return std::move(report_);
 }

@@ -5,7 +5,7 @@
 namespace nscdd {
 
 SolveReport Solve(const PartitionedProblem& problem, const NscdOptions& options, Communicator* communicator,
-                  PartitionedState* state) {
+                  InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator);
   const SubdomainProblem& sample = problem.subdomains.front();
   SubdomainState* iterate = &state->subdomains.front();

@@ -6,7 +6,7 @@
 namespace nscdd {
 
 SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options, Communicator* communicator,
-                  PartitionedState* state) {
+                  InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator);
   Gluing gluing(problem.subdomains, problem.interface, communicator);
   std::vector<SweepStatistics> statistics(problem.subdomains.size());
@@ -25,10 +25,13 @@ SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options
       }
     }
     // Stage 2, on the interface:  X dF = [V],  F += dF.
-    gluing.Apply(&state->subdomains, &state->interface, &jumps);
+    gluing.Measure(state->subdomains, &jumps);
+    gluing.Glue(&state->subdomains, &state->interface);
     if (due && monitor.Stops(k, statistics, jumps, *state)) break;
   }
-  return monitor.Finish(k, static_cast<std::int64_t>(k) * n_gs, state);
+  SolveReport report = monitor.Finish(k, static_cast<std::int64_t>(k) * n_gs, state);
+  report.interface_updates = k;
+  return report;
 }
 
 }  // namespace nscdd

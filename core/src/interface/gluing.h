@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "interface/copy_average.h"
 #include "interface/interface_map.h"
 #include "nscdd/communicator.h"
 
@@ -25,22 +26,24 @@ class Gluing {
  public:
   Gluing(const std::vector<SubdomainProblem>& problems, const InterfaceMap& map, Communicator* communicator);
 
-  /// Does it; `jumps` gets one part per problem. Collective among neighbours.
-  void Apply(std::vector<SubdomainState>* states, InterfaceState* interface, std::vector<JumpPart>* jumps);
+  /// Computes U and the jumps, one part per problem; changes no state. Collective among neighbours.
+  void Measure(const std::vector<SubdomainState>& states, std::vector<JumpPart>* jumps);
+  /// The update, after Measure().
+  void Glue(std::vector<SubdomainState>* states, InterfaceState* interface) const;
+  /// Exchanges V_E of the copies with U, after Measure(): twice is nothing.
+  void SwapMeans(std::vector<SubdomainState>* states);
+  /// U of copy k of the map, Dofs numbers.
+  const double* Mean(std::size_t k) const { return &mean_[dofs_ * k]; }
 
   /// V_E -= M~_E^-1 F_E on all copies (warm start; V_E is V_f + M~^-1 H r before).
   void SubtractImpulse(const InterfaceState& interface, std::vector<SubdomainState>* states) const;
 
  private:
-  void FillSlots(const std::vector<SubdomainState>& states);
-  void Average();
-
   const std::vector<SubdomainProblem>& problems_;
   const InterfaceMap& map_;
-  Communicator* communicator_;
   int dofs_;
-  std::vector<double> slots_;  // V of every copy of every interface body; after Average() U of the body in its first slot
-  std::vector<std::vector<double>> send_, receive_;
+  CopyAverage average_;
+  std::vector<double> mean_;  // Dofs per copy
 };
 
 }  // namespace nscdd

@@ -61,10 +61,10 @@ void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const Subd
 
 }  // namespace
 
-NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainState& state) {
+NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainState& state, Masses masses) {
   NaturalParts parts;
   VisitRows(problem, [&](const auto& rows) {
-    if (problem.multiplicity.empty()) {
+    if (problem.multiplicity.empty() || masses == Masses::kDivided) {
       AddRows<false>(problem, rows, state, &parts);
     } else {
       AddRows<true>(problem, rows, state, &parts);

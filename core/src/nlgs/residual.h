@@ -29,7 +29,10 @@ struct NaturalParts {
   std::int64_t worst_contact = -1;  ///< row of the rank's table of contacts
 };
 
-NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainState& state);
+enum class Masses { kWhole, kDivided };
+
+/// `masses`: kDivided measures the subdomain as a problem of its own (interface impulses frozen).
+NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainState& state, Masses masses = Masses::kWhole);
 
 /// nat from the sums over all subdomains.
 double Nat(double sum_e2, double sum_r2, const ResidualScales& scales);

@@ -38,21 +38,35 @@ void Accumulate(const Row& c, Local before, Local after, SweepStatistics* s) {
   s->max_dv_r = std::max(s->max_dv_r, std::sqrt(dv2 * r2));
 }
 
+template <class Row>
+Local ImpulseOf(const double* impulse) {
+  return {impulse[0], HasFriction(Row::kModel) ? impulse[Unknowns(Row::kModel) - 1] : 0.0};
+}
+
+/// One local solve; returns the velocity before it.
+template <class Row>
+Local SolveContact(const Row& c, const double* inverse_mass, double* velocity, double* impulse) {
+  constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
+  double* va = velocity + kDofs * c.a;
+  double* vb = velocity + kDofs * c.b;
+  const Local r = ImpulseOf<Row>(impulse);
+  const Local v = RelativeVelocity(c, va, vb);
+  const Local next = SolveLocal(c, r, v);
+  if (next.n != r.n || next.t != r.t) {
+    AddImpulse(c, {next.n - r.n, next.t - r.t}, inverse_mass + kInertias * c.a, inverse_mass + kInertias * c.b, va, vb);
+    impulse[0] = next.n;
+    if constexpr (kUnknowns == 2) impulse[1] = next.t;
+  }
+  return v;
+}
+
 template <bool kStatistics, class Row>
 void SweepRows(const std::vector<Row>& rows, const double* inverse_mass, double* velocity, double* impulse, SweepStatistics* s) {
-  constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
+  constexpr int kUnknowns = Unknowns(Row::kModel);
   for (const Row& c : rows) {
-    double* va = velocity + kDofs * c.a;
-    double* vb = velocity + kDofs * c.b;
-    Local r{impulse[0], 0.0};
-    if constexpr (kUnknowns == 2) r.t = impulse[1];
-    const Local next = SolveLocal(c, r, RelativeVelocity(c, va, vb));
-    if (next.n != r.n || next.t != r.t) {
-      AddImpulse(c, {next.n - r.n, next.t - r.t}, inverse_mass + kInertias * c.a, inverse_mass + kInertias * c.b, va, vb);
-      impulse[0] = next.n;
-      if constexpr (kUnknowns == 2) impulse[1] = next.t;
-    }
-    if constexpr (kStatistics) Accumulate(c, r, next, s);
+    const Local before = ImpulseOf<Row>(impulse);
+    SolveContact(c, inverse_mass, velocity, impulse);
+    if constexpr (kStatistics) Accumulate(c, before, ImpulseOf<Row>(impulse), s);
     impulse += kUnknowns;
   }
 }
@@ -74,6 +88,32 @@ SweepStatistics SweepWithStatistics(const SubdomainProblem& problem, SubdomainSt
   return s;
 }
 
+SweepStatistics SweepRecording(const SubdomainProblem& problem, SubdomainState* state, std::vector<double>* left) {
+  SweepStatistics s;
+  left->resize(problem.contact_count());
+  VisitRows(problem, [&](const auto& rows) {
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      double* impulse = &state->impulse[Unknowns(Row::kModel) * k];
+      const Local before = ImpulseOf<Row>(impulse);
+      const Local v = SolveContact(rows[k], problem.inverse_mass.data(), state->velocity.data(), impulse);
+      const Local after = ImpulseOf<Row>(impulse);
+      Accumulate(rows[k], before, after, &s);
+      (*left)[k] = v.t + Multiply(Block(rows[k]), {after.n - before.n, after.t - before.t}).t;
+    }
+  });
+  return s;
+}
+
+void SweepSome(const SubdomainProblem& problem, const std::vector<std::int32_t>& positions, SubdomainState* state) {
+  VisitRows(problem, [&](const auto& rows) {
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    for (const std::int32_t k : positions) {
+      SolveContact(rows[k], problem.inverse_mass.data(), state->velocity.data(), &state->impulse[Unknowns(Row::kModel) * k]);
+    }
+  });
+}
+
 void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state) {
   state->velocity = problem.free_velocity;
   VisitRows(problem, [&](const auto& rows) {
@@ -83,8 +123,7 @@ void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state) {
     const double* inverse = problem.inverse_mass.data();
     double* v = state->velocity.data();
     for (const Row& c : rows) {
-      const Local impulse{r[0], kUnknowns == 2 ? r[kUnknowns - 1] : 0.0};
-      AddImpulse(c, impulse, inverse + kInertias * c.a, inverse + kInertias * c.b, v + kDofs * c.a, v + kDofs * c.b);
+      AddImpulse(c, ImpulseOf<Row>(r), inverse + kInertias * c.a, inverse + kInertias * c.b, v + kDofs * c.a, v + kDofs * c.b);
       r += kUnknowns;
     }
   });

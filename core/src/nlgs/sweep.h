@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "problem/subdomain_problem.h"
 
@@ -25,6 +26,12 @@ void Sweep(const SubdomainProblem& problem, SubdomainState* state);
 
 /// The same, with statistics.
 SweepStatistics SweepWithStatistics(const SubdomainProblem& problem, SubdomainState* state);
+
+/// The same; `left` gets the tangential velocity v_t that each local solve leaves (per contact).
+SweepStatistics SweepRecording(const SubdomainProblem& problem, SubdomainState* state, std::vector<double>* left);
+
+/// One sweep over the contacts with the given positions only, in their order.
+void SweepSome(const SubdomainProblem& problem, const std::vector<std::int32_t>& positions, SubdomainState* state);
 
 /// V_E := V_f + M~^-1 H r  (F_E is subtracted by the interface).
 void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state);

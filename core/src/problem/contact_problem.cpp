@@ -12,6 +12,7 @@
 #include "nlgs/sweep.h"
 #include "nscdd/error.h"
 #include "problem/initial_state.h"
+#include "problem/option_checks.h"
 #include "problem/subdomain_builder.h"
 
 namespace nscdd {
@@ -76,6 +77,16 @@ ResidualScales Scales(const ContactProblem& p) {
   return s;
 }
 
+double MeanMass(const ContactProblem& p) {
+  double sum = 0.0, count = 0.0;
+  for (const double mass : p.mass) {
+    if (std::isinf(mass)) continue;
+    sum += mass;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 /// Everything of a problem that its solution refers to.
 struct Assembly {
   std::vector<double> inverse_mass, inverse_inertia;
@@ -109,6 +120,7 @@ void Assemble(const ContactProblem& p, Assembly* out) {
   for (int e = 0; e < count; ++e) problem.subdomains.push_back(builder.Build(e, std::move(rows[e])));
   problem.interface = MakeInterfaceMap(problem.subdomains, out->sharing, Blocks(count, 1), 0);
   problem.scales = Scales(p);
+  problem.mean_mass = MeanMass(p);
   problem.contact_count = static_cast<std::int64_t>(p.contacts.size());
   problem.contacts = &p.contacts;
   problem.body_id = &out->body_id;
@@ -117,6 +129,7 @@ void Assemble(const ContactProblem& p, Assembly* out) {
 }  // namespace
 
 ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOptions& options, const std::vector<Vec2>& warm) {
+  CheckAlgorithm(options);
   CheckBodies(p);
   CheckContacts(p);
   Require(warm.empty() || warm.size() == p.contacts.size(), "contact problem: warm impulses need one entry per contact");
@@ -124,6 +137,7 @@ ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOpti
   Assemble(p, &assembly);
   const PartitionedProblem& problem = assembly.problem;
   SerialCommunicator serial;
+  InterfaceWorkspace workspace;
   Require(!std::holds_alternative<NscdOptions>(options) || problem.subdomains.size() == 1,
           "contact problem: NSCD solves one subdomain; use NSCDD for several");
 
@@ -134,7 +148,7 @@ ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOpti
   PartitionedState state = InitialState(problem, warm);
   solution.report = problem.contact_count == 0
                         ? ReportWithoutContacts(problem)
-                        : std::visit([&](const auto& o) { return Solve(problem, o, &serial, &state); }, options);
+                        : std::visit([&](const auto& o) { return Solve(problem, o, &serial, &workspace, &state); }, options);
   solution.report.subdomains = static_cast<std::int64_t>(problem.subdomains.size());
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
     StoreVelocities(problem.subdomains[e], state.subdomains[e], assembly.inverse_mass, &solution.velocity);

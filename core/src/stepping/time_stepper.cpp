@@ -14,6 +14,7 @@
 #include "parallel/ordered_reduction.h"
 #include "partition/distribution.h"
 #include "problem/initial_state.h"
+#include "problem/option_checks.h"
 #include "problem/subdomain_builder.h"
 #include "stepping/contact_checks.h"
 #include "stepping/final_gap.h"
@@ -27,35 +28,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
-  const auto* nscdd = std::get_if<NscddOptions>(&algorithm);
-  return nscdd ? nscdd->partition : PartitionOptions{};
-}
-
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw Error(sentence);
-}
-
-void CheckStopping(const StoppingOptions& o) {
-  Require(o.tolerance >= 0.0, fmt::format("tolerance is {}; it must not be negative", o.tolerance));
-  Require(o.max_iterations >= 1, fmt::format("max_iterations is {}; it must be at least 1", o.max_iterations));
-  Require(o.test_every >= 1, fmt::format("test_every is {}; it must be at least 1", o.test_every));
-  Require(o.stall_iterations >= 1, fmt::format("stall_iterations is {}; it must be at least 1", o.stall_iterations));
-}
-
-void CheckOptions(const SteppingOptions& s, const AlgorithmOptions& algorithm) {
-  std::visit([](const auto& o) { CheckStopping(o.stopping); }, algorithm);
-  Require(s.theta >= 0.5 && s.theta <= 1.0, fmt::format("theta is {}; it must be in [0.5, 1]", s.theta));
-  Require(std::isfinite(s.alert_distance), "alert_distance must be finite");
-  Require(s.feedback_beta >= 0.0 && s.feedback_beta <= 1.0, fmt::format("feedback_beta is {}; it must be in [0, 1]", s.feedback_beta));
-  Require(s.feedback_slop >= 0.0 && s.feedback_cap >= 0.0, "feedback_slop and feedback_cap must not be negative");
-  const PartitionOptions p = PartitionOf(algorithm);
-  Require(p.nx >= 1 && p.ny >= 1 && static_cast<std::int64_t>(p.nx) * p.ny <= 1'000'000,
-          fmt::format("subdomains is {}x{}; both must be at least 1 and their product at most 1000000", p.nx, p.ny));
-  Require(p.repartition_every >= 1, fmt::format("repartition_every is {}; it must be at least 1", p.repartition_every));
-  if (const auto* nscdd = std::get_if<NscddOptions>(&algorithm)) {
-    Require(nscdd->sweeps_per_stage >= 1, fmt::format("sweeps_per_stage is {}; it must be at least 1", nscdd->sweeps_per_stage));
-  }
 }
 
 }  // namespace
@@ -70,7 +44,8 @@ class TimeStepper::Impl {
         communicator_(communicator),
         distribution_(adapter, communicator) {
     RunTogether(communicator, [&] {
-      CheckOptions(stepping, algorithm);
+      CheckStepping(stepping);
+      CheckAlgorithm(algorithm);
       description_ = adapter->Describe();
       const int ranks = communicator->size(), subdomains = partition_.nx * partition_.ny;
       Require(ranks <= subdomains,
@@ -151,6 +126,7 @@ class TimeStepper::Impl {
   Distribution distribution_;
   Grid grid_;
   ImpulseCache cache_;
+  InterfaceWorkspace workspace_;
   double alert_ = -1.0;
   std::int64_t step_ = 0;
   double time_ = 0.0;
@@ -320,8 +296,8 @@ void TimeStepper::Impl::ComputeOffsets(double dt) {
 
 /// What all ranks must know before they build: the unknowns required, scales of the residuals, counts.
 void TimeStepper::Impl::ReduceScales(double dt) {
-  // sums: |dt f|^2, |dt f|^2 / m, contacts, free bodies, radii;  maxima: |dt f| / m, approach speed, friction, arms
-  std::vector<ReductionPart<5, 4>> parts(local_subdomains_);
+  // sums: |dt f|^2, |dt f|^2 / m, contacts, free bodies, radii, masses;  maxima: |dt f| / m, approach speed, friction, arms
+  std::vector<ReductionPart<6, 4>> parts(local_subdomains_);
   for (auto& part : parts) part = {};
   for (std::size_t i = 0; i < rows(); ++i) {
     if (!IsFree(i) || !distribution_.Owns(i)) continue;
@@ -332,21 +308,23 @@ void TimeStepper::Impl::ReduceScales(double dt) {
     part[1] += f2 * inverse_mass_[i];
     part[3] += 1.0;
     part[4] += bodies().radius[i];
-    part[5] = std::max(part[5], std::sqrt(f2) * inverse_mass_[i]);
+    part[5] += bodies().mass[i];
+    part[6] = std::max(part[6], std::sqrt(f2) * inverse_mass_[i]);
   }
   for (std::size_t e = 0; e < chosen_.size(); ++e) {
     parts[e][2] = static_cast<double>(chosen_[e].size());
-    for (const std::int32_t c : chosen_[e]) parts[e][6] = std::max(parts[e][6], -approach_[c]);
+    for (const std::int32_t c : chosen_[e]) parts[e][7] = std::max(parts[e][7], -approach_[c]);
   }
   const ContactModel mine =
       RequiredModel({inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_});
-  parts.front()[7] = HasFriction(mine);
-  parts.front()[8] = HasArms(mine);
-  const auto t = ReduceInOrder<5, 4>(parts, communicator_);
-  problem_.scales = {std::sqrt(t[0]), std::max(t[5], t[6]), t[1]};
+  parts.front()[8] = HasFriction(mine);
+  parts.front()[9] = HasArms(mine);
+  const auto t = ReduceInOrder<6, 4>(parts, communicator_);
+  problem_.scales = {std::sqrt(t[0]), std::max(t[6], t[7]), t[1]};
+  problem_.mean_mass = t[3] > 0.0 ? t[5] / t[3] : 0.0;
   problem_.contact_count = static_cast<std::int64_t>(t[2]);
-  problem_.model = t[7] > 0.0 ? (t[8] > 0.0 ? ContactModel::kFrictionArms : ContactModel::kFriction)
-                              : (t[8] > 0.0 ? ContactModel::kNormalArms : ContactModel::kNormal);
+  problem_.model = t[8] > 0.0 ? (t[9] > 0.0 ? ContactModel::kFrictionArms : ContactModel::kFriction)
+                              : (t[9] > 0.0 ? ContactModel::kNormalArms : ContactModel::kNormal);
   report_.bodies = static_cast<std::int64_t>(t[3]);
   report_.mean_radius = t[3] > 0.0 ? t[4] / t[3] : 0.0;
 }
@@ -364,7 +342,7 @@ void TimeStepper::Impl::SolveProblem(double dt) {
   }
   report_.solve = problem_.contact_count == 0
                       ? ReportWithoutContacts(problem_)
-                      : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &state); }, algorithm_);
+                      : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &workspace_, &state); }, algorithm_);
   report_.solve.subdomains = grid_.cells();
 
   impulse_.assign(contacts_.size(), {});

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "algorithms/monitor.h"
+#include "interface/augmented_interface.h"
+#include "interface/gluing.h"
+#include "nlgs/sweep.h"
+#include "nscdd/options.h"
+#include "problem/partitioned_problem.h"
+
+namespace nscdd {
+
+/// The two stages that every algorithm of the paper is made of; a schedule says when which is done.
+class Stages {
+ public:
+  /// lambda = 0, or one subdomain: no augmented operator is built.
+  Stages(const PartitionedProblem& problem, const AugmentedInterfaceOptions& options, Communicator* communicator,
+         InterfaceWorkspace* workspace, PartitionedState* state);
+
+  /// Stage 1: `sweeps` NLGS sweeps in every subdomain with F_E fixed. The last one fills statistics().
+  void SweepSubdomains(int sweeps);
+  /// U and the jumps of the copies.
+  void MeasureJump() { gluing_.Measure(state_->subdomains, &jumps_); }
+  /// Stage 2, after MeasureJump(): X dF = [V], or X_lambda F = ...
+  void UpdateInterface();
+  /// The plain stage 2, X dF = [V], whatever lambda: V_E := U. After MeasureJump().
+  void GlueMeans() { gluing_.Glue(&state_->subdomains, &state_->interface); }
+  /// V_E and U change places on the copies, after MeasureJump().
+  void SwapMeans() { gluing_.SwapMeans(&state_->subdomains); }
+
+  /// Each subdomain by itself, F_E fixed: sweeps until `stopping` holds for it or its max_iterations.
+  struct LocalResult {
+    int sweeps = 0;         ///< of the subdomain that needed most
+    bool converged = true;  ///< all did
+  };
+  LocalResult SolveSubdomains(const StoppingOptions& stopping);
+
+  const std::vector<SweepStatistics>& statistics() const { return statistics_; }
+  const std::vector<JumpPart>& jumps() const { return jumps_; }
+
+  /// What a diverged iteration left (Monitor::Finish) is glued, and the interface's work is added to the report.
+  SolveReport Close(SolveReport report);
+
+ private:
+  bool SolveSubdomain(std::size_t e, const StoppingOptions& stopping, int* sweeps);
+
+  const PartitionedProblem& problem_;
+  Communicator* communicator_;
+  PartitionedState* state_;
+  Gluing gluing_;
+  std::unique_ptr<AugmentedInterface> augmented_;
+  std::vector<SweepStatistics> statistics_;
+  std::vector<JumpPart> jumps_;
+  std::vector<std::vector<double>> left_;  // tangential velocities that the local solves left
+  std::int64_t updates_ = 0;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "linear/linear_solver.h"
+
+namespace nscdd {
+
+/// A linear solver that keeps its symbolic factorisation while the pattern stays, and its numeric one while the values stay too.
+class KeptSolver {
+ public:
+  /// `communicator`: of the ranks that share the solver's matrix.
+  KeptSolver(std::unique_ptr<LinearSolver> solver, Communicator* communicator)
+      : solver_(std::move(solver)), communicator_(communicator) {}
+
+  /// The matrix for the Solve() calls that follow; factorised only if it is another one than before.
+  void Set(int n, std::vector<std::int32_t> row, std::vector<std::int32_t> column, std::vector<double> values);
+  /// The same with the pattern of before.
+  void SetValues(std::vector<double> values);
+  void Solve(std::span<double> x) { solver_->Solve(x); }
+
+  bool is_distributed() const { return solver_->is_distributed(); }
+  const LinearCounters& counters() const { return solver_->counters(); }
+
+ private:
+  /// The same answer on all ranks that share the matrix.
+  bool OnAll(bool mine) const;
+
+  std::unique_ptr<LinearSolver> solver_;
+  Communicator* communicator_;
+  int n_ = -1;
+  std::vector<std::int32_t> row_, column_;
+  std::vector<double> values_;
+};
+
+}  // namespace nscdd

@@ -1,0 +1,217 @@
+// The augmented interface: golden impulses of the pyramid, and its identities.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "algorithms/algorithms.h"
+#include "algorithms/stages.h"
+#include "nscdd/error.h"
+#include "problem/initial_state.h"
+#include "problem/problem_file.h"
+#include "sample_problem.h"
+
+namespace nscdd {
+namespace {
+
+using test::Sample;
+using test::SampleProblem;
+
+/// A sample after some iterations of NSCDD and one more sweep: the interface is about to be updated.
+struct Halfway {
+  Halfway(const ContactProblem& source, int iterations) : sample(source) {
+    sample.problem.mean_mass = 0.0;
+    double count = 0.0;
+    for (const double mass : source.mass) {
+      if (std::isinf(mass)) continue;
+      sample.problem.mean_mass += mass;
+      count += 1.0;
+    }
+    sample.problem.mean_mass /= count;
+    state = InitialState(sample.problem, {});
+    AugmentedInterfaceOptions plain;
+    plain.lambda = 0.0;
+    Stages stages(sample.problem, plain, &serial, &workspace, &state);
+    for (int k = 0; k < iterations; ++k) {
+      stages.SweepSubdomains(1);
+      stages.MeasureJump();
+      stages.UpdateInterface();
+    }
+  }
+  /// Sweep and one augmented update.
+  void Update(const AugmentedInterfaceOptions& options) {
+    Stages stages(sample.problem, options, &serial, &workspace, &state);
+    stages.SweepSubdomains(1);
+    stages.MeasureJump();
+    stages.UpdateInterface();
+  }
+  Sample sample;
+  SerialCommunicator serial;
+  InterfaceWorkspace workspace;
+  PartitionedState state;
+};
+
+struct GoldenUpdate {
+  const char* key;
+  double lambda;
+  Compatibility compatibility;
+  LocalVelocity local_velocity;
+};
+
+class GoldenInterface : public testing::TestWithParam<GoldenUpdate> {};
+
+TEST_P(GoldenInterface, ImpulseOfThePyramid) {
+  const std::string path = std::string(NSCDD_SOURCE_DIR) + "/tests/data/golden/c8_pyramid6.json";
+  const auto json = nlohmann::json::parse(std::ifstream(path));
+  ProblemFile file = ReadProblemFile(path);
+  file.problem.subdomain = json["partition_2x1"].get<std::vector<int>>();
+  Halfway halfway(file.problem, 2);
+  AugmentedInterfaceOptions o;
+  o.lambda = GetParam().lambda;
+  o.compatibility = GetParam().compatibility;
+  o.local_velocity = GetParam().local_velocity;
+  halfway.Update(o);
+  const auto& expected = json[GetParam().key];
+  const auto& map = halfway.sample.problem.interface;
+  ASSERT_EQ(5 * map.copies.size(), expected.size());
+  for (std::size_t k = 0; k < map.copies.size(); ++k) {
+    const auto& p = halfway.sample.problem.subdomains[map.copies[k].problem];
+    ASSERT_EQ(p.body[map.copies[k].body], expected[5 * k].get<int>());
+    ASSERT_EQ(p.subdomain, expected[5 * k + 1].get<int>());
+    for (int d = 0; d < 3; ++d) {
+      EXPECT_NEAR(halfway.state.interface.impulse[3 * k + d], expected[5 * k + 2 + d].get<double>(), 1e-13) << "copy " << k;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Updates, GoldenInterface,
+    testing::Values(GoldenUpdate{"enriched_F_L0_Gn_vlocal", 0.0, Compatibility::kNormal, LocalVelocity::kLocal},
+                    GoldenUpdate{"enriched_F_L10_Gn_vlocal", 10.0, Compatibility::kNormal, LocalVelocity::kLocal},
+                    GoldenUpdate{"enriched_F_L10_Gn_vcurrent", 10.0, Compatibility::kNormal, LocalVelocity::kCurrent},
+                    GoldenUpdate{"enriched_F_L10_Gfull_vlocal", 10.0, Compatibility::kFull, LocalVelocity::kLocal},
+                    GoldenUpdate{"enriched_F_L10_Gfull_vcurrent", 10.0, Compatibility::kFull, LocalVelocity::kCurrent}));
+
+// The conjugate gradient on X_lambda and the assembled primal problem are the same update; impulses sum to zero per body.
+TEST(AugmentedInterface, ConjugateGradientIsTheDirectSolve) {
+  const ContactProblem source = SampleProblem({.subdomains = 4});
+  for (const Compatibility compatibility : {Compatibility::kNormal, Compatibility::kFull, Compatibility::kSticking}) {
+    for (const double lambda : {0.1, 10.0, 1e4}) {
+      AugmentedInterfaceOptions o;
+      o.lambda = lambda;
+      o.compatibility = compatibility;
+      Halfway direct(source, 3);
+      direct.Update(o);
+      const std::vector<double>& expected = direct.state.interface.impulse;
+      double norm = 0.0;
+      std::vector<double> sum(3 * source.mass.size());
+      const auto& map = direct.sample.problem.interface;
+      for (std::size_t k = 0; k < map.copies.size(); ++k) {
+        const int row = direct.sample.problem.subdomains[map.copies[k].problem].body[map.copies[k].body];
+        for (int d = 0; d < 3; ++d) {
+          norm = std::max(norm, std::abs(expected[3 * k + d]));
+          sum[3 * row + d] += expected[3 * k + d];
+        }
+      }
+      for (const double s : sum) EXPECT_NEAR(s, 0.0, 1e-11 * norm);
+      for (const Preconditioner preconditioner :
+           {Preconditioner::kNone, Preconditioner::kDiagonal, Preconditioner::kLumped, Preconditioner::kDirichlet}) {
+        o.solve = InterfaceSolve::kCg;
+        o.preconditioner = preconditioner;
+        o.cg_tolerance = 1e-13;
+        o.cg_max_iterations = 100000;
+        Halfway cg(source, 3);
+        cg.Update(o);
+        double error = 0.0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          error = std::max(error, std::abs(cg.state.interface.impulse[i] - expected[i]));
+        }
+        // Every body is on this interface; at 1e4 the weak preconditioners stagnate at their attainable accuracy.
+        const bool weak = preconditioner == Preconditioner::kNone || preconditioner == Preconditioner::kDiagonal;
+        EXPECT_LT(error, (weak && lambda > 1e3 ? 1e-5 : 1e-9) * norm) << "lambda " << lambda << ", compatibility " << static_cast<int>(compatibility)
+                                      << ", preconditioner " << static_cast<int>(preconditioner);
+        o.solve = InterfaceSolve::kDirect;
+      }
+    }
+  }
+}
+
+// lambda = 0 is NSCDD, bit for bit, and builds no matrix.
+TEST(AugmentedInterface, LambdaZeroIsNscdd) {
+  const ContactProblem source = SampleProblem({.subdomains = 4});
+  NscddOptions nscdd;
+  nscdd.sweeps_per_stage = 2;
+  FeaOptions fea;
+  fea.sweeps_per_stage = 2;
+  fea.interface.lambda = 0.0;
+  const ContactSolution a = SolveContactProblem(source, nscdd), b = SolveContactProblem(source, fea);
+  EXPECT_EQ(a.report.iterations, b.report.iterations);
+  EXPECT_EQ(b.report.factorisations, 0);
+  for (std::size_t i = 0; i < a.velocity.size(); ++i) {
+    EXPECT_EQ(a.velocity[i].vx, b.velocity[i].vx);
+    EXPECT_EQ(a.velocity[i].spin, b.velocity[i].spin);
+  }
+}
+
+// FEA's limit is NSCD's, for every compatibility and both interface solves, where it converges.
+TEST(AugmentedInterface, FeaHasTheLimitOfNscd) {
+  const ContactProblem source = SampleProblem({.friction = 0.0, .subdomains = 3});
+  ContactProblem whole = source;
+  whole.subdomain.clear();
+  NscdOptions nscd;
+  nscd.stopping.tolerance = 1e-11;
+  nscd.stopping.max_iterations = 100000;
+  const ContactSolution expected = SolveContactProblem(whole, nscd);
+  FeaOptions fea;
+  fea.stopping = nscd.stopping;
+  for (const InterfaceSolve solve : {InterfaceSolve::kDirect, InterfaceSolve::kCg}) {
+    for (const LambdaScale scale : {LambdaScale::kMass, LambdaScale::kContact}) {
+      fea.interface.solve = solve;
+      fea.interface.lambda_scale = scale;
+      const ContactSolution s = SolveContactProblem(source, fea);
+      ASSERT_EQ(s.report.status, SolveStatus::kConverged) << s.report.reason;
+      EXPECT_GT(s.report.factorisations, 0);
+      EXPECT_EQ(s.report.cg_iterations > 0, solve == InterfaceSolve::kCg);
+      for (std::size_t i = 0; i < s.velocity.size(); ++i) EXPECT_NEAR(s.velocity[i].vy, expected.velocity[i].vy, 1e-8);
+    }
+  }
+}
+
+// IEA is REA with one interface update.
+TEST(AugmentedInterface, IeaIsReaWithOneUpdate) {
+  const ContactProblem source = SampleProblem({.subdomains = 3});
+  ReaOptions rea;
+  rea.sweeps_per_stage = 1;
+  rea.max_interface_updates = 1;
+  IeaOptions iea;
+  iea.interface.lambda = rea.interface.lambda = 100.0;
+  const ContactSolution a = SolveContactProblem(source, rea), b = SolveContactProblem(source, iea);
+  EXPECT_EQ(a.report.interface_updates, 1);
+  EXPECT_EQ(b.report.interface_updates, 1);
+  EXPECT_EQ(a.report.iterations, b.report.iterations + 1);
+  for (std::size_t i = 0; i < a.velocity.size(); ++i) {
+    EXPECT_EQ(a.velocity[i].vx, b.velocity[i].vx);
+    EXPECT_EQ(a.velocity[i].vy, b.velocity[i].vy);
+  }
+}
+
+// What cannot work says so and never returns a number that is none.
+TEST(AugmentedInterface, DivergenceIsAStatusAndKeepsAGoodIterate) {
+  const ContactProblem source = SampleProblem({.columns = 12, .rows = 12, .friction = 0.0, .subdomains = 6});
+  FeaOptions fea;
+  fea.sweeps_per_stage = 1;
+  fea.interface.local_velocity = LocalVelocity::kCurrent;
+  fea.interface.lambda = 1e6;
+  fea.stopping.max_iterations = 3000;
+  const ContactSolution s = SolveContactProblem(source, fea);
+  EXPECT_NE(s.report.status, SolveStatus::kConverged);
+  for (const Twist& v : s.velocity) EXPECT_TRUE(std::isfinite(v.vx + v.vy + v.spin));
+  EXPECT_LT(s.report.residuals.nat, 10.0);
+  fea.interface.lambda = 1e12;
+  EXPECT_THROW(SolveContactProblem(source, fea), Error);
+}
+
+}  // namespace
+}  // namespace nscdd
