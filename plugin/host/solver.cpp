@@ -35,6 +35,12 @@ SolveReport SolvePart(const nscdd_report& r) {
   solve.bytes_per_contact = static_cast<int>(r.bytes_per_contact);
   solve.bytes_per_body = static_cast<int>(r.bytes_per_body);
   solve.painleve_contacts = static_cast<int>(r.painleve_contacts);
+  solve.interface_updates = r.interface_updates;
+  solve.cg_iterations = r.cg_iterations;
+  solve.cg_failures = r.cg_failures;
+  solve.analyses = r.analyses;
+  solve.factorisations = r.factorisations;
+  solve.seconds_interface = r.seconds_interface;
   return solve;
 }
 

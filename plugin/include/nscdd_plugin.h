@@ -173,7 +173,8 @@ typedef enum nscdd_status {
   NSCDD_CONVERGED = 0,
   NSCDD_ITERATION_LIMIT = 1,
   NSCDD_STALLED = 2,
-  NSCDD_DIVERGED = 3
+  NSCDD_DIVERGED = 3,
+  NSCDD_INCOMPLETE = 4 /* an incomplete resolution did all that it does; the criterion does not hold for the whole sample */
 } nscdd_status;
 
 /* Of the last step or solve. Meaning of the numbers: SolveReport and StepReport in nscdd/report.h. */
@@ -226,6 +227,12 @@ typedef struct nscdd_report {
   double seconds_solve;
   double seconds_communicate;
   double seconds_total;
+  int64_t interface_updates;
+  int64_t cg_iterations;
+  int64_t cg_failures;
+  int64_t analyses;
+  int64_t factorisations;
+  double seconds_interface;
 } nscdd_report;
 
 /* A column of a table: `count` numbers of 8 bytes each, real (double) or integer (int64_t). */

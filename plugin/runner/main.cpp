@@ -30,12 +30,14 @@ void AddSolverOption(CLI::App* command, SolverRequest* request, const std::strin
 void AddSolverOptions(CLI::App* command, SolverRequest* request) {
   command->add_option("--solver", request->solver, "Solver: see `nscdd solvers`");
   command->add_option("--plugin", request->plugin, "Solver plugin (default: $NSCDD_PLUGIN, else the one beside this program)");
-  AddSolverOption(command, request, "--subdomains", "subdomains", "Grid of subdomains, NXxNY (nscdd)");
+  AddSolverOption(command, request, "--subdomains", "subdomains", "Grid of subdomains, NXxNY (all but nscd)");
   AddSolverOption(command, request, "--tolerance", "tolerance", "Tolerance of the criterion");
   AddSolverOption(command, request, "--criterion", "criterion", "nat, nat_max, quad, maxm or qm16");
   AddSolverOption(command, request, "--max-iterations", "max_iterations", "Sweeps, or interface updates, at most");
   AddSolverOption(command, request, "--test-every", "test_every", "Iterations between two tests of the criterion");
-  AddSolverOption(command, request, "--sweeps-per-stage", "sweeps_per_stage", "Sweeps per interface update (nscdd)");
+  AddSolverOption(command, request, "--sweeps-per-stage", "sweeps_per_stage", "Sweeps per interface update (nscdd, fea, rea)");
+  AddSolverOption(command, request, "--lambda", "lambda", "Search direction of the augmented interface (fea, rea, iea)");
+  AddSolverOption(command, request, "--interface", "interface", "direct or cg (fea, rea, iea)");
   command->add_option_function<std::vector<std::string>>("--option", [request](const std::vector<std::string>& pairs) {
     for (const std::string& pair : pairs) {
       const auto equals = pair.find('=');

@@ -15,6 +15,8 @@ const char* StatusName(SolveStatus status) {
       return "iteration_limit";
     case SolveStatus::kStalled:
       return "stalled";
+    case SolveStatus::kIncomplete:
+      return "incomplete";
     case SolveStatus::kDiverged:
       break;
   }
@@ -68,6 +70,11 @@ StepRow MakeStepRow(const StepReport& s) {
   row.max_multiplicity = solve.max_multiplicity;
   row.empty_subdomains = solve.empty_subdomains;
   row.painleve_contacts = solve.painleve_contacts;
+  row.interface_updates = solve.interface_updates;
+  row.cg_iterations = solve.cg_iterations;
+  row.cg_failures = solve.cg_failures;
+  row.factorisations = solve.factorisations;
+  row.seconds_interface = solve.seconds_interface;
   row.injected_energy = s.injected_energy;
   row.max_drift = s.max_drift;
   row.alert_distance = s.alert_distance;

@@ -94,6 +94,15 @@ int& SweepsPerStage(SolverSettings& s) {
       s.algorithm);
 }
 
+AugmentedInterfaceOptions& Interface(SolverSettings& s) {
+  return std::visit(
+      [](auto& algorithm) -> AugmentedInterfaceOptions& {
+        if constexpr (requires { algorithm.interface; }) return algorithm.interface;
+        throw std::logic_error("this solver has no augmented interface");
+      },
+      s.algorithm);
+}
+
 constexpr Range kPositiveCount{1, 2147483647};
 constexpr Range kNotNegative{0.0, 1e308};
 
@@ -152,13 +161,69 @@ std::vector<Option> CommonOptions() {
   return options;
 }
 
-std::vector<Option> DecompositionOptions() {
+std::vector<Option> PartitionOptionTable() {
   return {
       Grid("subdomains", Partition, "grid of subdomains over the mobile bodies, such as 4x2"),
       Integer(
           "repartition_every", [](SolverSettings& s) -> int& { return Partition(s).repartition_every; }, kPositiveCount,
           "steps between two placements of the grid"),
-      Integer("sweeps_per_stage", SweepsPerStage, kPositiveCount, "sweeps of each subdomain between two interface updates"),
+  };
+}
+
+std::vector<Option> StageOptions() {
+  return {Integer("sweeps_per_stage", SweepsPerStage, kPositiveCount, "sweeps of each subdomain between two interface updates")};
+}
+
+std::vector<Option> InterfaceOptions() {
+  return {
+      Real(
+          "lambda", "-", [](SolverSettings& s) -> double& { return Interface(s).lambda; }, Range{0.0, 1e8},
+          "search direction over the reference mass; 0: the plain interface of nscdd"),
+      Choice<Compatibility>(
+          "compatibility", [](SolverSettings& s) -> Compatibility& { return Interface(s).compatibility; },
+          {"normal", "full", "sticking"},
+          "active contacts in the interface problem: normals; and tangents; and tangents of sticking ones"),
+      Choice<LocalVelocity>(
+          "local_velocity", [](SolverSettings& s) -> LocalVelocity& { return Interface(s).local_velocity; }, {"local", "current"},
+          "velocity in the search direction: what each local solve left, or that of now"),
+      Choice<LambdaScale>(
+          "lambda_scale", [](SolverSettings& s) -> LambdaScale& { return Interface(s).lambda_scale; }, {"mass", "contact"},
+          "what lambda multiplies: the reference mass, or 1 / W_nn of each contact"),
+      Real(
+          "reference_mass", "kg", [](SolverSettings& s) -> double& { return Interface(s).reference_mass; }, kNotNegative,
+          "0: mean mass of the free bodies"),
+      Choice<InterfaceSolve>(
+          "interface", [](SolverSettings& s) -> InterfaceSolve& { return Interface(s).solve; }, {"direct", "cg"},
+          "assembled and factorised, or by the conjugate gradient among neighbours"),
+      Choice<LinearLibrary>(
+          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return Interface(s).library; }, {"auto", "eigen", "mumps"},
+          "auto is eigen; mumps needs mpirun"),
+      Choice<Preconditioner>(
+          "preconditioner", [](SolverSettings& s) -> Preconditioner& { return Interface(s).preconditioner; },
+          {"none", "diagonal", "lumped", "dirichlet"}, "of interface = cg"),
+      Real(
+          "cg_tolerance", "-", [](SolverSettings& s) -> double& { return Interface(s).cg_tolerance; }, Range{1e-15, 0.999},
+          "fall of the jump in one update by interface = cg"),
+      Integer(
+          "cg_max_iterations", [](SolverSettings& s) -> int& { return Interface(s).cg_max_iterations; }, kPositiveCount,
+          "of one update by interface = cg"),
+  };
+}
+
+std::vector<Option> ReaOptionTable() {
+  return {Integer(
+      "max_interface_updates", [](SolverSettings& s) -> int& { return std::get<ReaOptions>(s.algorithm).max_interface_updates; },
+      kPositiveCount, "interface updates before the subdomains are solved by themselves")};
+}
+
+std::vector<Option> IeaOptionTable() {
+  return {
+      Integer(
+          "polish_sweeps", [](SolverSettings& s) -> int& { return std::get<IeaOptions>(s.algorithm).polish_sweeps; },
+          Range{0, 2147483647}, "closing sweeps of the contacts of interface bodies"),
+      Integer(
+          "closing_updates", [](SolverSettings& s) -> int& { return std::get<IeaOptions>(s.algorithm).closing_updates; },
+          Range{0, 2147483647}, "closing iterations of nscdd (hybrid)"),
   };
 }
 

@@ -29,7 +29,11 @@ struct Option {
 
 /// Options of every solver: stopping and stepping.
 std::vector<Option> CommonOptions();
-/// Options of solvers with subdomains: NSCDD and its relatives.
-std::vector<Option> DecompositionOptions();
+/// Options of solvers with subdomains: the grid; sweeps of stage 1; the augmented interface; what REA and IEA add.
+std::vector<Option> PartitionOptionTable();
+std::vector<Option> StageOptions();
+std::vector<Option> InterfaceOptions();
+std::vector<Option> ReaOptionTable();
+std::vector<Option> IeaOptionTable();
 
 }  // namespace nscdd

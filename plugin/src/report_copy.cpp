@@ -7,6 +7,7 @@ static_assert(static_cast<int>(SolveStatus::kConverged) == NSCDD_CONVERGED);
 static_assert(static_cast<int>(SolveStatus::kIterationLimit) == NSCDD_ITERATION_LIMIT);
 static_assert(static_cast<int>(SolveStatus::kStalled) == NSCDD_STALLED);
 static_assert(static_cast<int>(SolveStatus::kDiverged) == NSCDD_DIVERGED);
+static_assert(static_cast<int>(SolveStatus::kIncomplete) == NSCDD_INCOMPLETE);
 
 void CopySolve(const SolveReport& solve, nscdd_report* target) {
   target->status = static_cast<std::int32_t>(solve.status);
@@ -35,6 +36,12 @@ void CopySolve(const SolveReport& solve, nscdd_report* target) {
   target->bytes_per_contact = solve.bytes_per_contact;
   target->bytes_per_body = solve.bytes_per_body;
   target->painleve_contacts = solve.painleve_contacts;
+  target->interface_updates = solve.interface_updates;
+  target->cg_iterations = solve.cg_iterations;
+  target->cg_failures = solve.cg_failures;
+  target->analyses = solve.analyses;
+  target->factorisations = solve.factorisations;
+  target->seconds_interface = solve.seconds_interface;
 }
 
 }  // namespace

@@ -11,9 +11,12 @@
 namespace nscdd {
 namespace {
 
-std::vector<Option> Join(std::vector<Option> first, std::vector<Option> second) {
-  first.insert(first.end(), std::make_move_iterator(second.begin()), std::make_move_iterator(second.end()));
-  return first;
+/// Options of every solver, then the groups.
+template <class... Groups>
+std::vector<Option> Join(Groups... groups) {
+  std::vector<Option> all = CommonOptions();
+  (all.insert(all.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end())), ...);
+  return all;
 }
 
 std::vector<SolverEntry> MakeTable() {
@@ -21,11 +24,23 @@ std::vector<SolverEntry> MakeTable() {
       {"nscd",
        "NonSmooth Contact Dynamics: nonlinear Gauss-Seidel sweeps over all contacts, one subdomain",
        {{}, NscdOptions{}},
-       CommonOptions()},
+       Join()},
       {"nscdd",
        "NSCD with domain decomposition: sweeps in each subdomain, then the mean velocity of each interface body",
        {{}, NscddOptions{}},
-       Join(CommonOptions(), DecompositionOptions())},
+       Join(PartitionOptionTable(), StageOptions())},
+      {"fea",
+       "fully enriched algorithm: nscdd with the augmented interface problem (lambda) after every sweep",
+       {{}, FeaOptions{}},
+       Join(PartitionOptionTable(), StageOptions(), InterfaceOptions())},
+      {"rea",
+       "relaxed enriched algorithm: iterates until the interface agrees, then solves each subdomain by itself",
+       {{}, ReaOptions{}},
+       Join(PartitionOptionTable(), StageOptions(), InterfaceOptions(), ReaOptionTable())},
+      {"iea",
+       "incomplete enriched algorithm: one augmented interface problem a step, then each subdomain by itself",
+       {{}, IeaOptions{}},
+       Join(PartitionOptionTable(), InterfaceOptions(), IeaOptionTable())},
   };
 }
 

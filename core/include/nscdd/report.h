@@ -49,8 +49,8 @@ struct SolveReport {
   std::int64_t interface_updates = 0;  ///< stages 2
   std::int64_t cg_iterations = 0;      ///< of all updates
   std::int64_t cg_failures = 0;        ///< updates in which the conjugate gradient met its iteration limit
-  std::int64_t analyses = 0;           ///< symbolic factorisations, of this rank
-  std::int64_t factorisations = 0;     ///< numeric ones, of this rank
+  std::int64_t analyses = 0;           ///< symbolic factorisations
+  std::int64_t factorisations = 0;     ///< numeric ones
   double seconds_interface = 0.0;      ///< in the augmented interface, this rank
   std::int64_t contacts = 0;      ///< candidates
   std::int64_t active = 0;        ///< r_n > 0

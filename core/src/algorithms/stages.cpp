@@ -13,6 +13,7 @@ Stages::Stages(const PartitionedProblem& problem, const AugmentedInterfaceOption
       communicator_(communicator),
       state_(state),
       gluing_(problem.subdomains, problem.interface, communicator),
+      is_direct_(options.solve == InterfaceSolve::kDirect),
       statistics_(problem.subdomains.size()) {
   const bool several = problem.subdomains.size() > 1 || communicator->size() > 1;
   if (options.lambda == 0.0 || !several) return;
@@ -82,8 +83,14 @@ SolveReport Stages::Close(SolveReport report) {
   const InterfaceCounters& c = augmented_->counters();
   report.cg_iterations = c.cg_iterations;
   report.cg_failures = c.cg_failures;
-  report.analyses = c.analyses;
-  report.factorisations = c.factorisations;
+  // Every rank factorises the assembled matrix; the subdomains' own are counted once each.
+  std::vector<ReductionPart<2, 0>> parts(problem_.subdomains.size());
+  for (auto& part : parts) part = {};
+  parts.front() = {static_cast<double>(c.analyses), static_cast<double>(c.factorisations)};
+  const auto t = ReduceInOrder<2, 0>(parts, communicator_);
+  const double ranks = is_direct_ ? communicator_->size() : 1.0;
+  report.analyses = static_cast<std::int64_t>(t[0] / ranks);
+  report.factorisations = static_cast<std::int64_t>(t[1] / ranks);
   report.seconds_interface = c.seconds;
   return report;
 }

@@ -51,6 +51,7 @@ class Stages {
   PartitionedState* state_;
   Gluing gluing_;
   std::unique_ptr<AugmentedInterface> augmented_;
+  bool is_direct_;
   std::vector<SweepStatistics> statistics_;
   std::vector<JumpPart> jumps_;
   std::vector<std::vector<double>> left_;  // tangential velocities that the local solves left

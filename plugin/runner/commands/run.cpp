@@ -146,8 +146,8 @@ bool SceneRun::Steps() {
     csv_->Append(row);
     summary_.Add(row);
     bar.Update(row);
-    const bool stop =
-        report.solve.status != SolveStatus::kConverged && scene_.solver.on_nonconvergence == OnNonconvergence::kStop;
+    const bool good = report.solve.status == SolveStatus::kConverged || report.solve.status == SolveStatus::kIncomplete;
+    const bool stop = !good && scene_.solver.on_nonconvergence == OnNonconvergence::kStop;
     if (step == 1) {
       summary_.unknowns_per_contact = report.solve.unknowns_per_contact;
       summary_.unknowns_per_body = report.solve.unknowns_per_body;

@@ -63,7 +63,7 @@ std::string ProgressBar::Line(const StepRow& row, double now) const {
 void ProgressBar::Update(const StepRow& row) {
   if (style_ == Style::kNone) return;
   ++done_;
-  if (row.status != "converged") ++not_converged_;
+  if (row.status != "converged" && row.status != "incomplete") ++not_converged_;
   const double now = clock_();
   if (!IsDue(now)) return;
 

@@ -11,7 +11,8 @@
 namespace nscdd {
 namespace {
 
-constexpr std::array kStatusNames = {"converged", "iteration_limit", "stalled", "diverged"};
+constexpr std::array kStatusNames = {"converged", "iteration_limit", "stalled", "incomplete", "diverged"};
+constexpr std::size_t kIncomplete = 3;  // what the algorithm promises: no failure, and no convergence
 
 /// Position in kStatusNames; an unknown word counts as diverged, so that it is not taken for success.
 std::size_t StatusIndex(const std::string& status) {
@@ -25,7 +26,7 @@ double WorstOf(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 std::string CountsOf(const RunSummary& summary, std::size_t first_status) {
   std::string text;
   for (std::size_t i = first_status; i < kStatusNames.size(); ++i) {
-    if (summary.status_count[i] == 0) continue;
+    if (summary.status_count[i] == 0 || (first_status > 0 && i == kIncomplete)) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", summary.status_count[i], kStatusNames[i]);
   }
   return text;
@@ -91,6 +92,11 @@ void AddCost(const RunSummary& s, Table* table) {
              fmt::format("{:.3f}: detect {:.3f}, solve {:.3f}, communicate {:.3f}, other {:.3f}, outside steps {:.3f}",
                          s.seconds_wall, s.seconds_detect, s.seconds_solve, s.seconds_communicate, std::max(0.0, other),
                          std::max(0.0, s.seconds_wall - s.seconds_steps)));
+  if (s.factorisations > 0) {
+    table->Add("interface", fmt::format("{} with {} and {}, {:.3f} s", Plural(s.interface_updates, "update"),
+                                        Plural(s.factorisations, "factorisation"), Plural(s.cg_iterations, "CG iteration"),
+                                        s.seconds_interface));
+  }
   table->Add("model", fmt::format("unknowns: {} per contact, {} per body; bytes swept: {} per contact, {} per body",
                                   s.unknowns_per_contact, s.unknowns_per_body, s.bytes_per_contact, s.bytes_per_body));
   if (s.ranks > 1) {
@@ -108,6 +114,10 @@ std::string Warnings(const RunSummary& s) {
     text += fmt::format("NOT CONVERGED: {} of {} ({}); first: step {}, nat {:.2e}, worst contact of bodies {} and {}{}\n",
                         s.not_converged(), Plural(s.steps, "step"), CountsOf(s, 1), first.step, first.nat, first.worst_body_a,
                         first.worst_body_b, first.reason.empty() ? "" : ": " + first.reason);
+  }
+  if (s.status_count[kIncomplete] > 0) {
+    text += fmt::format("INCOMPLETE: in {} the subdomains were solved, not the sample (nat up to {:.2e}), as this solver does\n",
+                        Plural(s.status_count[kIncomplete], "step"), s.max_nat);
   }
   if (s.steps_beyond_alert > 0) {
     text += fmt::format(
@@ -129,7 +139,7 @@ void RunSummary::Add(const StepRow& row) {
   time = row.time;
   last = row;
   const std::size_t status = StatusIndex(row.status);
-  if (status != 0 && not_converged() == 0) first_not_converged = row;
+  if (status != 0 && status != kIncomplete && not_converged() == 0) first_not_converged = row;
   ++status_count[status];
   iterations += row.iterations;
   max_iterations = std::max(max_iterations, row.iterations);
@@ -151,6 +161,10 @@ void RunSummary::Add(const StepRow& row) {
   seconds_solve += row.seconds_solve;
   seconds_communicate += row.seconds_communicate;
   seconds_steps += row.seconds_total;
+  interface_updates += row.interface_updates;
+  cg_iterations += row.cg_iterations;
+  factorisations += row.factorisations;
+  seconds_interface += row.seconds_interface;
 }
 
 std::string FormatSummary(const RunSummary& summary) {

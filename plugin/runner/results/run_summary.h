@@ -29,13 +29,13 @@ struct RunSummary {
   /// After each step.
   void Add(const StepRow& row);
 
-  /// Steps whose solve did not converge.
-  std::int64_t not_converged() const { return status_count[1] + status_count[2] + status_count[3]; }
+  /// Steps whose solve did not converge; incomplete resolutions are not among them.
+  std::int64_t not_converged() const { return status_count[1] + status_count[2] + status_count[4]; }
 
   // Filled by Add().
   std::int64_t steps = 0;
   double time = 0.0;                              ///< [s] simulated
-  std::array<std::int64_t, 4> status_count = {};  ///< converged, iteration_limit, stalled, diverged
+  std::array<std::int64_t, 5> status_count = {};   ///< converged, iteration_limit, stalled, incomplete, diverged
   StepRow last;
   StepRow first_not_converged;
   std::int64_t iterations = 0;  ///< sums over the steps, unless they say maximum
@@ -58,6 +58,10 @@ struct RunSummary {
   double seconds_solve = 0.0;
   double seconds_communicate = 0.0;
   double seconds_steps = 0.0;  ///< sum of seconds_total
+  std::int64_t interface_updates = 0;
+  std::int64_t cg_iterations = 0;
+  std::int64_t factorisations = 0;
+  double seconds_interface = 0.0;
 };
 
 /// The table, several lines, each ended by '\n'.

@@ -12,7 +12,7 @@ struct StepRow {
   std::int64_t contacts = 0;
   std::int64_t active = 0;
   std::int64_t iterations = 0;
-  std::string status = "converged";  ///< converged, iteration_limit, stalled or diverged
+  std::string status = "converged";  ///< converged, iteration_limit, stalled, incomplete or diverged
   double nat = 0.0;
   double nat_max = 0.0;
   double qm16 = 0.0;
@@ -36,6 +36,10 @@ struct StepRow {
   std::int64_t max_multiplicity = 0;
   std::int64_t empty_subdomains = 0;
   std::int64_t painleve_contacts = 0;
+  std::int64_t interface_updates = 0;
+  std::int64_t cg_iterations = 0;
+  std::int64_t cg_failures = 0;
+  std::int64_t factorisations = 0;
   double injected_energy = 0.0;
   double max_drift = 0.0;
   double alert_distance = 0.0;
@@ -43,6 +47,7 @@ struct StepRow {
   std::int64_t worst_body_a = -1;  ///< of the contact with the largest nat_max; -1: no contact
   std::int64_t worst_body_b = -1;
   double seconds_total = 0.0;
+  double seconds_interface = 0.0;
   std::string reason;  ///< why the solve stopped, one clause
 
   // What depends on the number of ranks, summed over them: communication.csv.

@@ -71,6 +71,10 @@ constexpr std::array kStepColumns = {
     NSCDD_COLUMN(Plain, max_multiplicity),
     NSCDD_COLUMN(Plain, empty_subdomains),
     NSCDD_COLUMN(Plain, painleve_contacts),
+    NSCDD_COLUMN(Plain, interface_updates),
+    NSCDD_COLUMN(Plain, cg_iterations),
+    NSCDD_COLUMN(Plain, cg_failures),
+    NSCDD_COLUMN(Plain, factorisations),
     NSCDD_COLUMN(Plain, injected_energy),
     NSCDD_COLUMN(Plain, max_drift),
     NSCDD_COLUMN(Plain, alert_distance),
@@ -78,6 +82,7 @@ constexpr std::array kStepColumns = {
     NSCDD_COLUMN(Plain, worst_body_a),
     NSCDD_COLUMN(Plain, worst_body_b),
     NSCDD_COLUMN(Seconds, seconds_total),
+    NSCDD_COLUMN(Seconds, seconds_interface),
     Column{"reason", Reason},
 };
 
