@@ -61,8 +61,15 @@ const toml::node* TableReader::Find(std::string_view key) {
 
 const toml::node& TableReader::Need(std::string_view key, std::string_view what) {
   const toml::node* node = Find(key);
-  if (node == nullptr) Refuse(key, fmt::format("is missing; give {}", what));
-  return *node;
+  if (node != nullptr) return *node;
+  const std::string wanted[] = {std::string(key)};
+  for (const auto& [other, unused] : *table_) {  // it may be there, misspelt
+    const bool is_known = std::find(known_.begin(), known_.end(), other.str()) != known_.end();
+    if (!is_known && !NearestName(other.str(), wanted).empty()) {
+      Refuse(other.str(), fmt::format("is unknown here; did you mean '{}'", key));
+    }
+  }
+  Refuse(key, fmt::format("is missing; give {}", what));
 }
 
 bool TableReader::Has(std::string_view key) { return Find(key) != nullptr; }
