@@ -56,6 +56,16 @@ AdapterDescription Translate(const nscdd_host_description& d) {
   return description;
 }
 
+void CheckColumns(const StepResult& result) {
+  if (result.pose.size() == result.id.size() && result.velocity.size() == result.id.size() &&
+      result.impulse.size() == result.key.size()) {
+    return;
+  }
+  throw Error(fmt::format("Commit got {} ids, {} poses, {} velocities, {} contact keys and {} impulses; give one pose and velocity "
+                          "for each id and one impulse for each key",
+                          result.id.size(), result.pose.size(), result.velocity.size(), result.key.size(), result.impulse.size()));
+}
+
 void CheckFinite(const StepResult& result) {
   for (std::size_t i = 0; i < result.id.size(); ++i) {
     const Pose& q = result.pose[i];
@@ -164,6 +174,7 @@ void CallbackAdapter::DetectContacts(const PoseView& poses, double alert, Contac
 }
 
 void CallbackAdapter::Commit(const StepResult& result) {
+  CheckColumns(result);
   CheckFinite(result);
   contact_body_.clear();
   contact_shape_.clear();

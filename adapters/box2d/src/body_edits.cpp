@@ -60,8 +60,9 @@ void BodyStore::CheckFinite(const BodyRecord& r) const {
   const Pose& q = r.pose;
   const Twist& v = r.velocity;
   if (std::isfinite(q.x + q.y + q.angle) && std::isfinite(v.vx + v.vy + v.spin) && std::isfinite(r.mass + r.inertia)) return;
-  throw Error(fmt::format("Box2D body {} is at ({}, {}, {}) with velocity ({}, {}, {}), mass {} and inertia {}: give it finite numbers.",
-                          r.id, q.x, q.y, q.angle, v.vx, v.vy, v.spin, r.mass, r.inertia));
+  throw Error(fmt::format(
+      "Box2D body {} is at ({}, {}, {}) with velocity ({}, {}, {}), mass {} and inertia {}: give it finite numbers.", r.id, q.x,
+      q.y, q.angle, v.vx, v.vy, v.spin, r.mass, r.inertia));
 }
 
 void BodyStore::SetPose(std::int32_t slot, const Pose& pose) {

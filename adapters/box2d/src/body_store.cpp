@@ -1,13 +1,9 @@
 #include "body_store.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_set>
-
-#include "nscdd/error.h"
 
 namespace nscdd::box2d {
 

@@ -22,14 +22,14 @@ struct BodyRecord {
   double inertia = 0.0;
   double radius = 0.0;
   double bounding_radius = 0.0;
-  Wrench force;            // as of the last Refresh: gravity, Box2D's own load and added_load
-  Wrench added_load;       // by AddLoad, for one step
-  HostMirror seen;         // the floats when master and mirror last agreed
+  Wrench force;       // as of the last Refresh: gravity, Box2D's own load and added_load
+  Wrench added_load;  // by AddLoad, for one step
+  HostMirror seen;    // the floats when master and mirror last agreed
   std::uint64_t fingerprint = 0;
   std::int32_t first_shape = 0;
   std::int32_t shape_count = 0;
   BodyKind kind = BodyKind::kFree;
-  bool is_round = false;   // one centred disk: looks the same at every angle
+  bool is_round = false;  // one centred disk: looks the same at every angle
   bool is_enabled = false;
   bool is_listed = false;  // has a row, or is about to get one
 };
@@ -60,8 +60,8 @@ class BodyStore {
   void SetVelocity(std::int32_t slot, const Twist& velocity);
   ExactBody ExactOf(std::int32_t slot) const;
 
-  std::int32_t SlotOf(std::int64_t id) const;         ///< -1: none
-  std::int32_t SlotOf(const b2Body* body) const;      ///< -1: none
+  std::int32_t SlotOf(std::int64_t id) const;     ///< -1: none
+  std::int32_t SlotOf(const b2Body* body) const;  ///< -1: none
   /// Enabled bodies in ascending order of id.
   const std::vector<Row>& Rows();
 
@@ -108,8 +108,8 @@ class BodyStore {
   std::unordered_map<const b2Body*, std::int32_t> slot_of_body_;
   std::int64_t next_id_ = 0;
 
-  std::vector<b2Body*> walk_;    // scratch: the world's list
-  std::vector<Walked> order_;    // the world's list at the last Sync, oldest first
+  std::vector<b2Body*> walk_;           // scratch: the world's list
+  std::vector<Walked> order_;           // the world's list at the last Sync, oldest first
   std::vector<std::int32_t> unwalked_;  // slots that Add made since
   bool is_order_stale_ = false;
 

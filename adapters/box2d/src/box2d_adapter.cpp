@@ -20,11 +20,12 @@ namespace {
 void CheckOptions(const b2World* world, const Box2dOptions& options) {
   if (world == nullptr) throw Error("A Box2dAdapter was made without a b2World: pass the address of yours.");
   if (!(options.metres_per_unit > 0.0 && std::isfinite(options.metres_per_unit))) {
-    throw Error(fmt::format("Box2dOptions::metres_per_unit = {} is refused: give a finite length > 0 in metres.", options.metres_per_unit));
+    throw Error(fmt::format("Box2dOptions::metres_per_unit = {} is refused: give a finite length > 0 in metres.",
+                            options.metres_per_unit));
   }
   if (!(options.period >= 0.0 && std::isfinite(options.period) && std::isfinite(options.period_origin))) {
-    throw Error(fmt::format("Box2dOptions::period = {} from {} is refused: give a finite length >= 0 in metres.", options.period,
-                            options.period_origin));
+    throw Error(fmt::format("Box2dOptions::period = {} from {} is refused: give a finite length >= 0 in metres.",
+                            options.period, options.period_origin));
   }
 }
 
@@ -95,8 +96,9 @@ class Box2dAdapter::Impl final : public BodyTransport {
   void CheckResult(const StepResult& result) {
     if (result.pose.size() != result.id.size() || result.velocity.size() != result.id.size() ||
         result.impulse.size() != result.key.size()) {
-      throw Error(fmt::format("Commit got {} ids, {} poses, {} velocities, {} keys and {} impulses: columns must have one length each.",
-                              result.id.size(), result.pose.size(), result.velocity.size(), result.key.size(), result.impulse.size()));
+      throw Error(
+          fmt::format("Commit got {} ids, {} poses, {} velocities, {} keys and {} impulses: columns must have one length each.",
+                      result.id.size(), result.pose.size(), result.velocity.size(), result.key.size(), result.impulse.size()));
     }
     slots.resize(result.id.size());
     const auto& rows = store.Rows();
@@ -107,8 +109,9 @@ class Box2dAdapter::Impl final : public BodyTransport {
       const Pose& q = result.pose[i];
       const Twist& v = result.velocity[i];
       if (std::isfinite(q.x + q.y + q.angle) && std::isfinite(v.vx + v.vy + v.spin)) continue;
-      throw Error(fmt::format("Commit of body {} at ({}, {}, {}) with velocity ({}, {}, {}) is refused: numbers must be finite.",
-                              result.id[i], q.x, q.y, q.angle, v.vx, v.vy, v.spin));
+      throw Error(
+          fmt::format("Commit of body {} at ({}, {}, {}) with velocity ({}, {}, {}) is refused: numbers must be finite.",
+                      result.id[i], q.x, q.y, q.angle, v.vx, v.vy, v.spin));
     }
   }
 
@@ -146,7 +149,8 @@ class Box2dAdapter::Impl final : public BodyTransport {
     for (std::size_t i = 0; i < result.key.size(); ++i) {
       const ContactKey& key = result.key[i];
       if (!(result.impulse[i].x > 0.0)) continue;
-      options.impulse_listener({key, FixtureOf(key.body_a, key.shape_a), FixtureOf(key.body_b, key.shape_b), result.impulse[i]});
+      options.impulse_listener(
+          {key, FixtureOf(key.body_a, key.shape_a), FixtureOf(key.body_b, key.shape_b), result.impulse[i]});
     }
   }
 
@@ -214,9 +218,10 @@ void Box2dAdapter::Assign(b2Body* body, std::int64_t id, const ExactBody& exact)
   if (id < 0) throw Error(fmt::format("Assign got the id {}: ids must not be negative.", id));
   if (store.SlotOf(body) >= 0 || store.SlotOf(id) >= 0) store.DropDestroyed();  // one of them may be gone by now
   if (store.SlotOf(body) >= 0) {
-    throw Error(fmt::format("Assign of id {} comes too late: the body has id {} already. Assign ids before the first ReadBodies that "
-                            "sees the body.",
-                            id, store.record(store.SlotOf(body)).id));
+    throw Error(
+        fmt::format("Assign of id {} comes too late: the body has id {} already. Assign ids before the first ReadBodies that "
+                    "sees the body.",
+                    id, store.record(store.SlotOf(body)).id));
   }
   if (store.SlotOf(id) >= 0) throw Error(fmt::format("Assign got the id {}, which another body has: ids must be unique.", id));
   store.Add(body, id, exact);

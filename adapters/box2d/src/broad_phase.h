@@ -76,10 +76,10 @@ class BroadPhase {
 
   Vec2 origin_;
   double unit_ = 1.0;
-  double period_ = 0.0;         // in tree units, as the next two
+  double period_ = 0.0;  // in tree units, as the next two
   double period_begin_ = 0.0;
-  double widest_ = 0.0;         // width of the widest fat box of a free shape
-  double walls_begin_ = 0.0;    // extent in x of fat boxes of walls shorter than a period
+  double widest_ = 0.0;       // width of the widest fat box of a free shape
+  double walls_begin_ = 0.0;  // extent in x of fat boxes of walls shorter than a period
   double walls_end_ = 0.0;
   std::unique_ptr<b2DynamicTree> free_;
   std::unique_ptr<b2DynamicTree> walls_;

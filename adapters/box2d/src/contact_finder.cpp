@@ -12,9 +12,7 @@
 namespace nscdd::box2d {
 namespace {
 
-Vec2 Turn(const BodyPlace& body, Vec2 a) {
-  return {body.cosine * a.x - body.sine * a.y, body.sine * a.x + body.cosine * a.y};
-}
+Vec2 Turn(const BodyPlace& body, Vec2 a) { return {body.cosine * a.x - body.sine * a.y, body.sine * a.x + body.cosine * a.y}; }
 
 }  // namespace
 
@@ -37,18 +35,21 @@ void ContactFinder::CheckPoses(const PoseView& poses, double alert) const {
   }
   const auto& rows = store_->Rows();
   if (poses.id.size() != rows.size() || poses.pose.size() != rows.size()) {
-    throw Error(fmt::format("DetectContacts got {} ids and {} poses, and the b2World has {} enabled bodies: give each of them once.",
-                            poses.id.size(), poses.pose.size(), rows.size()));
+    throw Error(
+        fmt::format("DetectContacts got {} ids and {} poses, and the b2World has {} enabled bodies: give each of them once.",
+                    poses.id.size(), poses.pose.size(), rows.size()));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Pose& q = poses.pose[i];
     if (poses.id[i] != rows[i].id) {
-      throw Error(fmt::format("DetectContacts got body {} where the b2World has body {}: name every enabled body once, in ascending "
-                              "order of id.",
-                              poses.id[i], rows[i].id));
+      throw Error(
+          fmt::format("DetectContacts got body {} where the b2World has body {}: name every enabled body once, in ascending "
+                      "order of id.",
+                      poses.id[i], rows[i].id));
     }
     if (!std::isfinite(q.x + q.y + q.angle)) {
-      throw Error(fmt::format("DetectContacts got body {} at ({}, {}, {}): poses must be finite.", poses.id[i], q.x, q.y, q.angle));
+      throw Error(
+          fmt::format("DetectContacts got body {} at ({}, {}, {}): poses must be finite.", poses.id[i], q.x, q.y, q.angle));
     }
   }
 }
@@ -58,9 +59,10 @@ void ContactFinder::CheckPeriod(double alert) const {
     const BodyRecord& r = store_->record(slot);
     if (r.kind == BodyKind::kFree) {
       if (2.0 * r.bounding_radius + alert < period_) continue;
-      throw Error(fmt::format("Box2D body {} is {} m wide and would touch its own image: make the period {} m longer than that and the "
-                              "alert distance {} m.",
-                              id, 2.0 * r.bounding_radius, period_, alert));
+      throw Error(
+          fmt::format("Box2D body {} is {} m wide and would touch its own image: make the period {} m longer than that and the "
+                      "alert distance {} m.",
+                      id, 2.0 * r.bounding_radius, period_, alert));
     }
     for (std::int32_t i = r.first_shape; i < r.first_shape + r.shape_count; ++i) {
       const Shape& shape = store_->shape(i);

@@ -22,24 +22,27 @@ struct Context {
 void CheckPoint(Context at, const char* what, Vec2 exact, Vec2 fixture, double size) {
   const double distance = Norm(exact - fixture);
   if (distance <= kTolerance * size) return;
-  throw Error(fmt::format("The exact shape {} of Box2D body {} has {} at ({}, {}) and its fixture at ({}, {}) from the centre of mass "
-                          "[m]: they must describe the same shape, check metres_per_unit and the order of the fixtures.",
-                          at.number, at.id, what, exact.x, exact.y, fixture.x, fixture.y));
+  throw Error(
+      fmt::format("The exact shape {} of Box2D body {} has {} at ({}, {}) and its fixture at ({}, {}) from the centre of mass "
+                  "[m]: they must describe the same shape, check metres_per_unit and the order of the fixtures.",
+                  at.number, at.id, what, exact.x, exact.y, fixture.x, fixture.y));
 }
 
 [[noreturn]] void ThrowKind(Context at) {
-  throw Error(fmt::format("The exact shape {} of Box2D body {} is of another kind than its fixture: give a disk for a circle, a "
-                          "segment or half-plane for an edge or a child of a chain, a polygon for a polygon.",
-                          at.number, at.id));
+  throw Error(
+      fmt::format("The exact shape {} of Box2D body {} is of another kind than its fixture: give a disk for a circle, a "
+                  "segment or half-plane for an edge or a child of a chain, a polygon for a polygon.",
+                  at.number, at.id));
 }
 
 void Replace(Context at, const DiskGeometry& disk, ShapeDraft* draft) {
   if (!draft->wall.normals.empty()) ThrowKind(at);
   Shape& shape = draft->shape;
   if (!(std::abs(disk.radius - shape.radius) <= kTolerance * disk.radius)) {
-    throw Error(fmt::format("The exact shape {} of Box2D body {} has radius {} m and its fixture {} m: they must describe the same "
-                            "disk, check metres_per_unit and the order of the fixtures.",
-                            at.number, at.id, disk.radius, shape.radius));
+    throw Error(
+        fmt::format("The exact shape {} of Box2D body {} has radius {} m and its fixture {} m: they must describe the same "
+                    "disk, check metres_per_unit and the order of the fixtures.",
+                    at.number, at.id, disk.radius, shape.radius));
   }
   CheckPoint(at, "its centre", disk.centre, shape.centre, disk.radius + Norm(disk.centre));
   shape.centre = disk.centre;
@@ -72,8 +75,8 @@ void Replace(Context at, const PolygonGeometry& polygon, ShapeDraft* draft) {
   // b2PolygonShape::Set begins with a vertex of its own choice.
   std::vector<Vec2> vertices = polygon.vertices;
   const Vec2 first = draft->wall.points[0];
-  const auto begin = std::min_element(vertices.begin(), vertices.end(),
-                                      [first](Vec2 a, Vec2 b) { return Norm(a - first) < Norm(b - first); });
+  const auto begin =
+      std::min_element(vertices.begin(), vertices.end(), [first](Vec2 a, Vec2 b) { return Norm(a - first) < Norm(b - first); });
   std::rotate(vertices.begin(), begin, vertices.end());
   for (std::size_t i = 0; i < vertices.size(); ++i) CheckPoint(at, "a vertex", vertices[i], draft->wall.points[i], size);
   draft->wall = MakePolygon(std::move(vertices));
@@ -84,9 +87,10 @@ void Replace(Context at, const PolygonGeometry& polygon, ShapeDraft* draft) {
 void ApplyExact(const std::vector<ExactShape>& exact, std::int64_t id, std::vector<ShapeDraft>* drafts) {
   if (exact.empty()) return;
   if (exact.size() != drafts->size()) {
-    throw Error(fmt::format("Box2D body {} was assigned {} exact shapes and has {} (one per fixture, one per child of a chain): give "
-                            "all of them, or none.",
-                            id, exact.size(), drafts->size()));
+    throw Error(
+        fmt::format("Box2D body {} was assigned {} exact shapes and has {} (one per fixture, one per child of a chain): give "
+                    "all of them, or none.",
+                    id, exact.size(), drafts->size()));
   }
   for (std::size_t i = 0; i < exact.size(); ++i) {
     ShapeDraft& draft = (*drafts)[i];

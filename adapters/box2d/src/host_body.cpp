@@ -128,25 +128,29 @@ void CheckFixtures(const b2Body& body, std::int64_t id) {
   if (body.GetType() != b2_dynamicBody || !body.IsEnabled()) return;
   for (const b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
     if (fixture->IsSensor() || fixture->GetType() == b2Shape::e_circle) continue;
-    throw Error(fmt::format("Box2D body {} is dynamic and has {} fixture; free bodies are made of circles only: give it circle "
-                            "fixtures, or make it static or kinematic.",
-                            id, NameOf(fixture->GetType())));
+    throw Error(
+        fmt::format("Box2D body {} is dynamic and has {} fixture; free bodies are made of circles only: give it circle "
+                    "fixtures, or make it static or kinematic.",
+                    id, NameOf(fixture->GetType())));
   }
 }
 
 void CheckMotion(const b2Body& body, std::int64_t id) {
   if (body.GetType() != b2_dynamicBody || !body.IsEnabled()) return;
   if (body.IsFixedRotation()) {
-    throw Error(fmt::format("Box2D body {} has fixed rotation, which the solver does not model: call SetFixedRotation(false).", id));
+    throw Error(
+        fmt::format("Box2D body {} has fixed rotation, which the solver does not model: call SetFixedRotation(false).", id));
   }
   if (!(body.GetMass() > 0.0f && body.*Member(Inertia{}) > 0.0f)) {
-    throw Error(fmt::format("Box2D body {} is dynamic with mass {} and inertia {}: give its fixtures a density, or call SetMassData.",
-                            id, body.GetMass(), body.*Member(Inertia{})));
+    throw Error(
+        fmt::format("Box2D body {} is dynamic with mass {} and inertia {}: give its fixtures a density, or call SetMassData.",
+                    id, body.GetMass(), body.*Member(Inertia{})));
   }
   if (body.GetLinearDamping() != 0.0f || body.GetAngularDamping() != 0.0f) {
-    throw Error(fmt::format("Box2D body {} has linear damping {} and angular damping {}, which the solver does not model: set them "
-                            "to zero, or apply a force.",
-                            id, body.GetLinearDamping(), body.GetAngularDamping()));
+    throw Error(
+        fmt::format("Box2D body {} has linear damping {} and angular damping {}, which the solver does not model: set them "
+                    "to zero, or apply a force.",
+                    id, body.GetLinearDamping(), body.GetAngularDamping()));
   }
 }
 

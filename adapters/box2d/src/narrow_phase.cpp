@@ -5,9 +5,7 @@
 namespace nscdd::box2d {
 namespace {
 
-Vec2 Turn(const BodyPlace& body, Vec2 a) {
-  return {body.cosine * a.x - body.sine * a.y, body.sine * a.x + body.cosine * a.y};
-}
+Vec2 Turn(const BodyPlace& body, Vec2 a) { return {body.cosine * a.x - body.sine * a.y, body.sine * a.x + body.cosine * a.y}; }
 Vec2 TurnBack(const BodyPlace& body, Vec2 a) {
   return {body.cosine * a.x + body.sine * a.y, -body.sine * a.x + body.cosine * a.y};
 }
@@ -93,7 +91,8 @@ void NarrowPhase::TestWall(const Candidate& candidate) {
   const Vec2 seen{disk.centre.x + (wall_is_a ? shift : -shift), disk.centre.y};
   WallPoint closest =
       ClosestPoint(wall.kind, store_->wall(wall.wall), TurnBack(body, seen - body.centre), JoinTolerance(disk.radius));
-  if (closest.distance - disk.radius > alert_ || !filter_->Allows(store_->shape(candidate.a), store_->shape(candidate.b))) return;
+  if (closest.distance - disk.radius > alert_ || !filter_->Allows(store_->shape(candidate.a), store_->shape(candidate.b)))
+    return;
   closest.point = Turn(body, closest.point);
   closest.normal = Turn(body, closest.normal);
   hits_.push_back({&candidate, closest, wall_is_a});

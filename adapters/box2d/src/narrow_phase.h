@@ -11,7 +11,8 @@
 
 namespace nscdd::box2d {
 
-/// A pair worth a closer look; A has the smaller body id. In wrapped coordinates B is seen near A when shifted by `shift` periods.
+/// A pair worth a closer look; A has the smaller body id. In wrapped coordinates B is seen near A when shifted by `shift`
+/// periods.
 struct Candidate {
   std::int32_t a;
   std::int32_t b;
@@ -20,18 +21,18 @@ struct Candidate {
 
 /// Where a body is in this detection.
 struct BodyPlace {
-  Vec2 centre;            // as given
-  double cosine = 1.0;    // left alone for bodies that look the same at every angle
+  Vec2 centre;          // as given
+  double cosine = 1.0;  // left alone for bodies that look the same at every angle
   double sine = 0.0;
   std::int32_t row = -1;
 };
 
 /// Where a shape is.
 struct ShapePlace {
-  Vec2 centre;              // of the disk, else of the wall's body; as given
-  double radius = 0.0;      // of the disk, else 0
-  std::int32_t row = -1;    // of the body
-  std::int32_t wraps = 0;   // periods that were taken off to come into the period
+  Vec2 centre;             // of the disk, else of the wall's body; as given
+  double radius = 0.0;     // of the disk, else 0
+  std::int32_t row = -1;   // of the body
+  std::int32_t wraps = 0;  // periods that were taken off to come into the period
 };
 
 /// Where everything is in this detection.
@@ -39,7 +40,7 @@ struct Placement {
   std::vector<BodyPlace> bodies;   // by slot
   std::vector<ShapePlace> shapes;  // by shape
   double period = 0.0;
-  double slack = 0.0;              // [m] rounding of positions
+  double slack = 0.0;  // [m] rounding of positions
 
   const BodyPlace& body(std::int32_t slot) const { return bodies[static_cast<std::size_t>(slot)]; }
   const ShapePlace& shape(std::int32_t index) const { return shapes[static_cast<std::size_t>(index)]; }

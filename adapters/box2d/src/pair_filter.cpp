@@ -21,9 +21,10 @@ void PairFilter::Read(b2World* world, const BodyStore& store, bool joints_only_f
   for (b2Joint* joint = world->GetJointList(); joint != nullptr; joint = joint->GetNext()) {
     const std::int32_t a = store.SlotOf(joint->GetBodyA()), b = store.SlotOf(joint->GetBodyB());
     if (!joints_only_filter && joint->IsEnabled() && (Moves(joint->GetBodyA()) || Moves(joint->GetBodyB()))) {
-      throw Error(fmt::format("A Box2D joint connects bodies {} and {}; joints are not solved: destroy it, or set "
-                              "Box2dOptions::joints_only_filter to keep it as a mere collision filter.",
-                              store.record(a).id, store.record(b).id));
+      throw Error(
+          fmt::format("A Box2D joint connects bodies {} and {}; joints are not solved: destroy it, or set "
+                      "Box2dOptions::joints_only_filter to keep it as a mere collision filter.",
+                      store.record(a).id, store.record(b).id));
     }
     if (!joint->GetCollideConnected()) jointed_.emplace_back(std::min(a, b), std::max(a, b));
   }

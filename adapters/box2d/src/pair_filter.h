@@ -28,8 +28,8 @@ class PairFilter {
   }
   bool AsksUser(const Shape& a, const Shape& b) const;
 
-  b2ContactFilter* users_ = nullptr;                             // null: Box2D's default
-  std::vector<std::pair<std::int32_t, std::int32_t>> jointed_;   // slots, smaller first; sorted
+  b2ContactFilter* users_ = nullptr;                            // null: Box2D's default
+  std::vector<std::pair<std::int32_t, std::int32_t>> jointed_;  // slots, smaller first; sorted
 };
 
 }  // namespace nscdd::box2d

@@ -80,7 +80,8 @@ void AddFixture(b2Fixture* fixture, const Placer& place, double scale, std::vect
 
 std::vector<ShapeDraft> DraftShapes(const b2Body& body, double scale) {
   std::vector<b2Fixture*> fixtures;  // Box2D lists the newest first
-  for (const b2Fixture* f = body.GetFixtureList(); f != nullptr; f = f->GetNext()) fixtures.push_back(const_cast<b2Fixture*>(f));
+  for (const b2Fixture* f = body.GetFixtureList(); f != nullptr; f = f->GetNext())
+    fixtures.push_back(const_cast<b2Fixture*>(f));
   std::reverse(fixtures.begin(), fixtures.end());
   std::vector<ShapeDraft> drafts;
   const Placer place(body, scale);

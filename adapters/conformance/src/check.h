@@ -76,6 +76,7 @@ std::vector<Check> BodyChecks();
 std::vector<Check> PairChecks();
 std::vector<Check> GeometryChecks();
 std::vector<Check> HostChecks();
+std::vector<Check> RefusalChecks();
 std::vector<Check> DistributionChecks();
 std::vector<Check> ClosedFormChecks();
 std::vector<Check> AllChecks();

@@ -48,6 +48,7 @@ std::optional<Arguments> Parse(int argc, char** argv) {
 int Report(int outcome, const Check& check, const std::string& detail) {
   const char* word = outcome == kPassed ? "PASS" : outcome == kSkipped ? "SKIP" : "FAIL";
   fmt::print("{} {}: {}\n", word, check.name, detail);
+  std::fflush(stdout);  // the next check may crash
   return outcome;
 }
 

@@ -7,6 +7,12 @@
 #include "contact_columns.h"
 
 namespace nscdd::conformance {
+namespace {
+
+bool Same(const Pose& p, const Pose& q) { return p.x == q.x && p.y == q.y && p.angle == q.angle; }
+bool Same(const Twist& v, const Twist& w) { return v.vx == w.vx && v.vy == w.vy && v.spin == w.spin; }
+
+}  // namespace
 
 double Uniform(double low, double high, std::mt19937_64* random) {
   return low + (high - low) * (static_cast<double>((*random)() >> 11) * 0x1p-53);
@@ -66,6 +72,14 @@ void RequireAllPairs(const BodyTable& bodies, const ContactTable& contacts, doub
   }
   Require(expected == contacts.size(), "{} contacts are between other bodies than a free disk and a disk, or repeated",
           contacts.size() - expected);
+}
+
+void RequireUnchanged(const BodyTable& before, const BodyTable& after, const char* what) {
+  Require(before.id == after.id, "{} changed which bodies there are", what);
+  for (std::size_t row = 0; row < before.size(); ++row) {
+    Require(Same(before.pose[row], after.pose[row]) && Same(before.velocity[row], after.velocity[row]),
+            "{} changed the pose or the velocity of body {}", what, before.id[row]);
+  }
 }
 
 std::optional<std::int64_t> AddHalfPlaneFloor(std::int64_t id, double friction, Session* session) {

@@ -24,6 +24,9 @@ double DiskGap(const BodyTable& bodies, std::size_t a, std::size_t b, double shi
 /// The contacts of whole disks must be those of a double loop over bodies and images, up to rounding at the alert distance.
 void RequireAllPairs(const BodyTable& bodies, const ContactTable& contacts, double alert, double period = 0.0);
 
+/// The same bodies with bitwise the same poses and velocities; `what` must not have changed them.
+void RequireUnchanged(const BodyTable& before, const BodyTable& after, const char* what);
+
 /// Largest |coordinate| of the poses, at least 1: what rounding is measured by [m].
 double CoordinateScale(const BodyTable& bodies);
 

@@ -26,7 +26,7 @@ void RunTogether(Communicator* communicator, const std::function<void()>& work) 
   const int root = static_cast<int>(culprit);
   if (root == communicator->size()) return;
   std::vector<std::byte> bytes(sentence.size());
-  std::memcpy(bytes.data(), sentence.data(), sentence.size());
+  if (!sentence.empty()) std::memcpy(bytes.data(), sentence.data(), sentence.size());
   communicator->Broadcast(root, &bytes);
   throw Error(fmt::format("rank {}: {}", root, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
 }

@@ -19,18 +19,22 @@ class ByteWriter {
   template <class T>
   void Put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto* p = reinterpret_cast<const std::byte*>(&value);
-    bytes_->insert(bytes_->end(), p, p + sizeof(T));
+    Append(&value, sizeof(T));
   }
 
   template <class T>
   void PutSpan(std::span<const T> values) {
     Put(static_cast<std::uint64_t>(values.size()));
-    const auto raw = std::as_bytes(values);
-    bytes_->insert(bytes_->end(), raw.begin(), raw.end());
+    if (!values.empty()) Append(values.data(), values.size_bytes());
   }
 
  private:
+  void Append(const void* from, std::size_t size) {
+    const std::size_t end = bytes_->size();
+    bytes_->resize(end + size);
+    std::memcpy(bytes_->data() + end, from, size);
+  }
+
   std::vector<std::byte>* bytes_;
 };
 

@@ -59,12 +59,14 @@ MpiCommunicator::~MpiCommunicator() {
 }
 
 void MpiCommunicator::AllReduceMin(std::span<double> values) {
+  if (size_ == 1) return;
   const Stopwatch watch(&counters_.seconds);
   ++counters_.collectives;
   Check(MPI_Allreduce(MPI_IN_PLACE, values.data(), Count(values.size()), MPI_DOUBLE, MPI_MIN, comm_), "MPI_Allreduce");
 }
 
 std::vector<double> MpiCommunicator::AllGather(std::span<const double> values) {
+  if (size_ == 1) return {values.begin(), values.end()};
   const Stopwatch watch(&counters_.seconds);
   ++counters_.collectives;
   std::vector<int> counts(size_), offsets(size_);

@@ -103,13 +103,13 @@ class Box2dAdapter final : public PlatformAdapter {
   /// taken, the body has another id, or the shapes are not those of the fixtures (to 1e-4 of their size).
   void Assign(b2Body* body, std::int64_t id, const ExactBody& exact = {});
 
-  b2Body* Find(std::int64_t id) const;                           ///< null if there is none
-  std::optional<std::int64_t> IdOf(const b2Body* body) const;    ///< nothing before its first ReadBodies or Assign
+  b2Body* Find(std::int64_t id) const;                         ///< null if there is none
+  std::optional<std::int64_t> IdOf(const b2Body* body) const;  ///< nothing before its first ReadBodies or Assign
 
   /// These set the double value and its float mirror in the world. Throw Error on an unknown id.
-  void SetPose(std::int64_t id, const Pose& pose);          ///< of the centre of mass [m, rad]
-  void SetVelocity(std::int64_t id, const Twist& velocity); ///< [m/s, rad/s]; refused for a static body
-  void SetGravity(Vec2 gravity);                            ///< [m/s^2]
+  void SetPose(std::int64_t id, const Pose& pose);           ///< of the centre of mass [m, rad]
+  void SetVelocity(std::int64_t id, const Twist& velocity);  ///< [m/s, rad/s]; refused for a static body
+  void SetGravity(Vec2 gravity);                             ///< [m/s^2]
   /// Adds to the external load of the next step [N, N m], in double precision. b2Body::ApplyForce, ApplyForceToCenter and
   /// ApplyTorque act as well, in float.
   void AddLoad(std::int64_t id, const Wrench& load);
