@@ -3,7 +3,7 @@
 debian_packages=(
   g++ cmake ninja-build ccache pkg-config
   libopenmpi-dev openmpi-bin
-  libeigen3-dev libfmt-dev libbox2d-dev
+  libeigen3-dev libmumps-dev libfmt-dev libbox2d-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
   libhdf5-openmpi-dev libcairo2-dev fonts-dejavu-core
   libgtest-dev libbenchmark-dev
@@ -37,8 +37,9 @@ install_packages() {
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# Configures and builds the preset $1 in build/$1 with all cores.
+# Configures and builds the preset $1 in build/$1 with all cores. Clones in different folders share the compiler cache.
 build() {
+  export CCACHE_BASEDIR=$PWD
   cmake --preset "$1"
   cmake --build --preset "$1" --parallel "$(nproc)"
 }

@@ -192,6 +192,9 @@ std::vector<Option> InterfaceOptions() {
       Real(
           "reference_mass", "kg", [](SolverSettings& s) -> double& { return Interface(s).reference_mass; }, kNotNegative,
           "0: mean mass of the free bodies"),
+      Real(
+          "restoring", "-", [](SolverSettings& s) -> double& { return Interface(s).restoring; }, Range{0.0, 1.0},
+          "part of the interpenetration that the interface problem alone undoes in a step"),
       Choice<InterfaceSolve>(
           "interface", [](SolverSettings& s) -> InterfaceSolve& { return Interface(s).solve; }, {"direct", "cg"},
           "assembled and factorised, or by the conjugate gradient among neighbours"),

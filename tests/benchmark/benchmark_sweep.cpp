@@ -62,7 +62,7 @@ void BarePass(const SubdomainProblem& problem, SubdomainState* state) {
 /// Some passes from the same state each time, so that every iteration meets the same active set and no sweep is at a fixed point.
 void Measure(::benchmark::State& run, LazyPacking* lazy, const Pass& pass) {
   const DensePacking& packing = lazy->Get();
-  const SubdomainProblem& problem = packing.problem.subdomain;
+  const SubdomainProblem& problem = packing.problem;
   const auto contacts = static_cast<std::int64_t>(problem.contact_count());
   const std::int64_t passes = std::max<std::int64_t>(4, 100'000 / contacts);
   SubdomainState state = packing.state;
@@ -81,8 +81,8 @@ void Measure(::benchmark::State& run, LazyPacking* lazy, const Pass& pass) {
 void CheckBareLoop(LazyPacking* lazy) {
   const DensePacking& packing = lazy->Get();
   SubdomainState product = packing.state, bare = packing.state;
-  ProductPass(packing.problem.subdomain, &product);
-  BarePass(packing.problem.subdomain, &bare);
+  ProductPass(packing.problem, &product);
+  BarePass(packing.problem, &bare);
   double largest = 0.0, difference = 0.0;
   for (std::size_t i = 0; i < bare.velocity.size(); ++i) {
     largest = std::max(largest, std::abs(bare.velocity[i]));

@@ -5,6 +5,7 @@
 
 #include "nlgs/sweep.h"
 #include "nscdd/reference/reference_adapter.h"
+#include "step_problem.h"
 
 namespace nscdd::benchmark {
 namespace {
@@ -39,9 +40,10 @@ reference::World MakeWorld(int disks, double friction) {
 DensePacking MakeDensePacking(int disks, double friction) {
   reference::World world = MakeWorld(disks, friction);
   reference::ReferenceAdapter adapter(&world);
+  const StepProblem step = ReadStepProblem(&adapter, kTimeStep, 0.1);
   DensePacking packing;
-  packing.problem = ReadStepProblem(&adapter, kTimeStep, 0.1);
-  const SubdomainProblem& p = packing.problem.subdomain;
+  packing.problem = BuildSubdomain(step, AllContacts(step));
+  const SubdomainProblem& p = packing.problem;
   const std::size_t unknowns = Unknowns(p.model);
   packing.state = {p.free_velocity, std::vector<double>(unknowns * p.contact_count(), 0.0)};
   for (int k = 0; k < kSweeps; ++k) Sweep(p, &packing.state);

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "problem/subdomain_problem.h"
-#include "step_problem.h"
-
 namespace nscdd::benchmark {
 
 /// A dense sample in the middle of a solve.
 struct DensePacking {
-  StepProblem problem;
+  SubdomainProblem problem;
   SubdomainState state;  ///< after some hundred sweeps from r = 0: a typical active set
   double active = 0.0;   ///< share of the contacts with r_n > 0
 };

@@ -51,22 +51,8 @@ std::vector<double> Offsets(double dt, StepProblem* p) {
   return offset;
 }
 
-SubdomainProblem BuildSubdomain(const StepProblem& p, const std::vector<double>& offset) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    for (const std::int32_t body : {p.contacts.a[c], p.contacts.b[c]}) {
-      if (IsFree(p, body)) pairs.emplace_back(body, 0);
-    }
-  }
-  const Sharing sharing = MakeSharing(p.bodies.size(), std::move(pairs));
-  const ProblemTables tables{p.inverse_mass, p.inverse_inertia, p.free_velocity, &p.contacts, offset, &sharing};
-  std::vector<std::int32_t> rows(p.contacts.size());
-  std::iota(rows.begin(), rows.end(), 0);
-  return SubdomainBuilder(tables, RequiredModel(tables)).Build(0, std::move(rows));
-}
-
-SubdomainState StateOf(const StepProblem& p, const std::vector<Twist>& velocity, const std::vector<Vec2>& impulse) {
-  const SubdomainProblem& s = p.subdomain;
+SubdomainState StateOf(const StepProblem& p, const SubdomainProblem& s, const std::vector<Twist>& velocity,
+                       const std::vector<Vec2>& impulse) {
   SubdomainState state{s.free_velocity, {}};
   const int dofs = Dofs(s.model);
   for (std::size_t b = 0; b < s.body_count(); ++b) {
@@ -95,21 +81,39 @@ StepProblem ReadStepProblem(PlatformAdapter* adapter, double dt, double alert) {
   }
   adapter->DetectContacts({p.bodies.id, detection}, alert, &p.contacts);
   FillBodies(dt, &p);
-  p.subdomain = BuildSubdomain(p, Offsets(dt, &p));
+  p.offset = Offsets(dt, &p);
   return p;
 }
 
-AnswerResiduals MeasureAnswer(const StepProblem& p, const std::vector<Twist>& velocity, const std::vector<Vec2>& impulse) {
+std::vector<std::int32_t> AllContacts(const StepProblem& p) {
+  std::vector<std::int32_t> rows(p.contacts.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+SubdomainProblem BuildSubdomain(const StepProblem& p, std::vector<std::int32_t> contacts) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (const std::int32_t c : contacts) {
+    for (const std::int32_t body : {p.contacts.a[c], p.contacts.b[c]}) {
+      if (IsFree(p, body)) pairs.emplace_back(body, 0);
+    }
+  }
+  const Sharing sharing = MakeSharing(p.bodies.size(), std::move(pairs));
+  const ProblemTables tables{p.inverse_mass, p.inverse_inertia, p.free_velocity, &p.contacts, p.offset, &sharing};
+  return SubdomainBuilder(tables, RequiredModel(tables)).Build(0, std::move(contacts));
+}
+
+AnswerResiduals MeasureAnswer(const StepProblem& p, const std::vector<Twist>& velocity, const std::vector<Vec2>& impulse,
+                              std::vector<std::int32_t> measured) {
   AnswerResiduals answer;
-  const SubdomainState given = StateOf(p, velocity, impulse);
+  const SubdomainProblem problem = BuildSubdomain(p, std::move(measured));
+  const SubdomainState given = StateOf(p, problem, velocity, impulse);
+  const NaturalParts parts = NaturalResidual(problem, given);
+  answer.nat = Nat(parts.sum_e2, parts.sum_r2, p.scales);
+  answer.nat_max = NatMax(parts.worst, p.scales);
   SubdomainState balanced = given;
-  ComputeVelocity(p.subdomain, &balanced);
-  const NaturalParts as_given = NaturalResidual(p.subdomain, given), recomputed = NaturalResidual(p.subdomain, balanced);
-  answer.nat = Nat(as_given.sum_e2, as_given.sum_r2, p.scales);
-  answer.nat_max = NatMax(as_given.worst, p.scales);
-  answer.nat_of_impulses = Nat(recomputed.sum_e2, recomputed.sum_r2, p.scales);
-  answer.nat_max_of_impulses = NatMax(recomputed.worst, p.scales);
-  const int dofs = Dofs(p.subdomain.model);
+  ComputeVelocity(problem, &balanced);
+  const int dofs = Dofs(problem.model);
   double sum = 0.0;
   for (std::size_t i = 0; i < given.velocity.size(); i += dofs) {
     const double dx = given.velocity[i] - balanced.velocity[i], dy = given.velocity[i + 1] - balanced.velocity[i + 1];

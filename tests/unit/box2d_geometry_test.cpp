@@ -180,9 +180,9 @@ TEST_F(Box2dGeometry, PolygonIsSolid) {
   b2PolygonShape shape;
   shape.SetAsBox(2.0f, 1.0f);
   box->CreateFixture(&shape, 0.0f);
-  AddDisk(&world_, {0.5f, 1.5f}, 0.5f);       // on the top
-  AddDisk(&world_, {2.375f, 1.5f}, 0.625f);   // at the corner
-  AddDisk(&world_, {-0.25f, -0.75f}, 0.5f);   // centre inside, nearest to the bottom
+  AddDisk(&world_, {0.5f, 1.5f}, 0.5f);      // on the top
+  AddDisk(&world_, {2.375f, 1.5f}, 0.625f);  // at the corner
+  AddDisk(&world_, {-0.25f, -0.75f}, 0.5f);  // centre inside, nearest to the bottom
   const ContactTable c = Detect(&adapter_, 0.1);
   std::vector<std::size_t> of_box;
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -106,8 +106,15 @@ TEST(SceneBodies, AFileThatShrankIsNoticed) {
 }
 
 TEST(SceneBodies, LatticeIsFixedBySeedAndKeepsItsBounds) {
-  const Lattice lattice{.left = 0, .right = 20, .bottom = 1, .min_radius = 0.5, .max_radius = 1, .spacing = 2.2, .jitter = 0.1,
-                        .hexagonal = false, .seed = 3};
+  const Lattice lattice{.left = 0,
+                        .right = 20,
+                        .bottom = 1,
+                        .min_radius = 0.5,
+                        .max_radius = 1,
+                        .spacing = 2.2,
+                        .jitter = 0.1,
+                        .hexagonal = false,
+                        .seed = 3};
   Lattice other = lattice;
   other.seed = 4;
   EXPECT_EQ(LatticeColumns(lattice), 9);
@@ -130,8 +137,15 @@ TEST(SceneBodies, LatticeIsFixedBySeedAndKeepsItsBounds) {
 }
 
 TEST(SceneBodies, HexagonalRowsAreShiftedByHalfASpacing) {
-  const Lattice lattice{.left = 0, .right = 7, .bottom = 0, .min_radius = 1, .max_radius = 1, .spacing = 2, .jitter = 0,
-                        .hexagonal = true, .seed = 0};
+  const Lattice lattice{.left = 0,
+                        .right = 7,
+                        .bottom = 0,
+                        .min_radius = 1,
+                        .max_radius = 1,
+                        .spacing = 2,
+                        .jitter = 0,
+                        .hexagonal = true,
+                        .seed = 0};
   EXPECT_EQ(LatticeColumns(lattice), 3);
   EXPECT_EQ(LatticeDisk(lattice, 0).centre.x, 1.0);
   EXPECT_EQ(LatticeDisk(lattice, 3).centre.x, 2.0);
@@ -169,7 +183,8 @@ TEST(SceneBodies, DepositedDisksRestOnTwoOthersWithoutOverlap) {
       top = std::max(top, disks.back().centre.y);
     }
     const std::vector<int> supports = Supports(bed, disks);
-    EXPECT_GE(std::count_if(supports.begin(), supports.end(), [](int n) { return n >= 2; }), 598) << "all but the first and the one at its side";
+    EXPECT_GE(std::count_if(supports.begin(), supports.end(), [](int n) { return n >= 2; }), 598)
+        << "all but the first and the one at its side";
     EXPECT_GT(area / (28.0 * (top - bed.bottom)), 0.74) << "the packing is dense";
   }
 }
@@ -255,8 +270,9 @@ x = [0, 30]
 bottom = 0
 radius = [0.7, 1.3]
 )"));
-  const auto final_csv = folder.Write("final.csv", "id,x,y,angle,vx,vy,spin\n0,0,0,0,0,0,0\n1,0.10000000000000001,2,3,9,9,9\n2,4,5,6,9,9,9\n"
-                                                   "3,7,8,0.33333333333333331,9,9,9\n4,1,1,1,1,1,1\n5,2,2,2,2,2,2\n");
+  const auto final_csv = folder.Write("final.csv",
+                                      "id,x,y,angle,vx,vy,spin\n0,0,0,0,0,0,0\n1,0.10000000000000001,2,3,9,9,9\n2,4,5,6,9,9,9\n"
+                                      "3,7,8,0.33333333333333331,9,9,9\n4,1,1,1,1,1,1\n5,2,2,2,2,2,2\n");
   WritePacking(scene, final_csv, folder.path() / "p.csv");
   const std::vector<BodyDefinition> loose = Bodies(scene);
   const std::vector<BodyDefinition> settled = Bodies(ReadSceneFile(

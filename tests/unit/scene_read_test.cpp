@@ -43,8 +43,9 @@ TEST_P(ShippedScene, HasItsBodiesWithUniqueIdsWallsFirst) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
-                         testing::Values(Shipped{"two_disks", 200, 1, 2}, Shipped{"column", 50, 1, 4}, Shipped{"pyramid", 100, 1, 6},
-                                         Shipped{"incline_roll", 100, 1, 1}, Shipped{"rotating_box_730", 50, 3, 730},
+                         testing::Values(Shipped{"two_disks", 200, 1, 2}, Shipped{"column", 50, 1, 4},
+                                         Shipped{"pyramid", 100, 1, 6}, Shipped{"incline_roll", 100, 1, 1},
+                                         Shipped{"rotating_box_730", 50, 3, 730},
                                          Shipped{"rotating_box_730_frictionless", 50, 3, 730},
                                          Shipped{"sloped_flow_750", 200, 60, 750}, Shipped{"drum", 300, 1, 300},
                                          Shipped{"clusters", 400, 1, 16}, Shipped{"box_10k", 20, 3, 10000},
@@ -118,7 +119,8 @@ criterion = "qm16"
 
 TEST(SceneRead, DefaultsAreTheDocumentedOnes) {
   const TestFolder folder;
-  const Scene scene = ReadSceneFile(folder.Write("plain.toml", "[time]\ndt = 0.01\nsteps = 3\n[[disks]]\ncentre = [0, 1]\nradius = 1\n"));
+  const Scene scene =
+      ReadSceneFile(folder.Write("plain.toml", "[time]\ndt = 0.01\nsteps = 3\n[[disks]]\ncentre = [0, 1]\nradius = 1\n"));
   EXPECT_EQ(scene.name, "plain");
   EXPECT_EQ(scene.adapter, "box2d");
   EXPECT_EQ(GravityAt(scene.gravity, 1, 0.01).y, -9.81);

@@ -94,6 +94,8 @@ struct AugmentedInterfaceOptions {
   LocalVelocity local_velocity = LocalVelocity::kLocal;
   LambdaScale lambda_scale = LambdaScale::kMass;
   double reference_mass = 0.0;  ///< [kg] 0: mean mass of the free bodies
+  double restoring = 0.0;       ///< [-] part of the interpenetration that the linear problem alone asks to undo in a step: its
+                                ///< search direction becomes (r~ - r) + Lambda (v~ - v - restoring max(0, -gap) / dt) = 0 on normals
   InterfaceSolve solve = InterfaceSolve::kDirect;
   LinearLibrary library = LinearLibrary::kAuto;
   Preconditioner preconditioner = Preconditioner::kLumped;

@@ -41,7 +41,9 @@ struct ContactRecord {
 ///     q_m = q_i + (1 - theta) dt V_i,  contacts at q_m,  V_f = V_i + dt M^-1 f,
 ///     V = V_f + M^-1 H r with v = H^T V in the contact law,  q_{i+1} = q_m + theta dt V.
 /// Each rank has its own adapter, holding the bodies of its subdomains and ghosts; bodies migrate by the adapter's transport().
-/// Before the first step every body is in exactly one rank's host.
+/// Before the first step every body is in exactly one rank's host. Between steps the host's user may add bodies on any rank, and edit
+/// or remove a body on the rank that owns it (bodies() lists those): edits of ghosts are not read, removing one is an Error. Shapes and
+/// materials of a body that has ghosts stay what they were when it got them; replace the body by one with a new id.
 /// Reports and results are bitwise the same on any number of ranks. Not for concurrent use of one instance.
 class TimeStepper {
  public:
@@ -53,11 +55,13 @@ class TimeStepper {
   TimeStepper(TimeStepper&&) noexcept;
 
   /// One step of `dt` [s] > 0. Collective. Throws the same Error on all ranks when an adapter fails or breaks its contract; the
-  /// hosts' poses and velocities are then unchanged.
+  /// hosts' poses and velocities are then unchanged (unless it was Commit() that failed on one rank), and once the cause is mended
+  /// the step may be tried again.
   const StepReport& Step(double dt);
 
   /// What a continuation needs beside the hosts' bodies, this rank's part: step and time counters, cuts of the grid, impulses by
-  /// key, interface impulses by (body, subdomain). LoadState() replaces them; throws Error if the bytes are not those of SaveState().
+  /// key, interface impulses by (body, subdomain). LoadState() replaces them, on the same number of ranks with each rank's owned bodies
+  /// in its host and no ghosts; throws Error, and changes nothing, if the bytes are not those of SaveState() with this partition.
   std::vector<std::byte> SaveState() const;
   void LoadState(std::span<const std::byte> bytes);
 

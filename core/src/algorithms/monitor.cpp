@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -74,7 +75,9 @@ void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const s
   r.maxm = stagnation.maxm;
   r.qm16 = stagnation.qm16;
   r.interface_jump = t[8] > 0.0 ? std::sqrt(t[7] / t[8]) : 0.0;
-  r.relative_jump = r.interface_jump == 0.0 ? 0.0 : stagnation.quad_wr > 0.0 ? r.interface_jump / stagnation.quad_wr : INFINITY;
+  // While no contact carries an impulse, the loads are the scale.
+  const double scale = stagnation.quad_wr > 0.0 ? stagnation.quad_wr : problem_.scales.velocity;
+  r.relative_jump = r.interface_jump == 0.0 ? 0.0 : scale > 0.0 ? r.interface_jump / scale : INFINITY;
 }
 
 void Monitor::Stop(SolveStatus status, std::string reason) {
@@ -140,10 +143,12 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
   const char* name = Name(options_.criterion);
   if (first_ < 0.0) {
     first_ = best_ = measure;
+    best_iteration_ = iteration;
     KeepBest(state);
   }
 
-  if (!std::isfinite(r.nat) || !std::isfinite(r.nat_max) || (measure > 1.0 && measure > 1e6 * first_)) {
+  // nat is infinite, which is no divergence, before the first impulse of bodies without loads.
+  if (std::isnan(r.nat) || !std::isfinite(r.nat_max) || (measure > 1.0 && measure > 1e6 * first_)) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g} after {:.3g} at the first test", name, measure, first_));
     return true;
   }
@@ -213,23 +218,23 @@ void Monitor::FindWorst(const PartitionedState& state) {
   NaturalParts worst;
   for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
     const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
-    if (n.worst_contact >= 0 && !(n.worst <= worst.worst)) worst = n;
+    if (n.worst_contact >= 0 && Exceeds(n.worst, worst.worst)) worst = n;
   }
   std::array<double, 6> mine{-1.0, 0, 0, 0, 0, 0};
   if (worst.worst_contact >= 0) {
     const ContactTable& t = *problem_.contacts;
     const auto c = static_cast<std::size_t>(worst.worst_contact);
-    const auto id = [&](std::int32_t row) { return static_cast<double>((*problem_.body_id)[row]); };
+    const auto id = [&](std::int32_t row) { return std::bit_cast<double>((*problem_.body_id)[row]); };  // any number fits
     const auto shape = [&](const std::vector<std::int32_t>& column) { return column.empty() ? 0.0 : double(column[c]); };
     mine = {worst.worst, id(t.a[c]), id(t.b[c]), shape(t.shape_a), shape(t.shape_b), shape(t.image)};
   }
   const std::vector<double> all = communicator_->AllGather(mine);
   const double* best = all.data();
   for (std::size_t i = 6; i < all.size(); i += 6) {
-    if (all[i] > best[0]) best = &all[i];
+    if (Exceeds(all[i], best[0])) best = &all[i];
   }
   if (best[0] < 0.0) return;
-  report_.residuals.worst = {static_cast<std::int64_t>(best[1]), static_cast<std::int64_t>(best[2]),
+  report_.residuals.worst = {std::bit_cast<std::int64_t>(best[1]), std::bit_cast<std::int64_t>(best[2]),
                              static_cast<std::int32_t>(best[3]), static_cast<std::int32_t>(best[4]),
                              static_cast<std::int32_t>(best[5])};
 }

@@ -1,5 +1,6 @@
 #include "interface/augmented_interface.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "interface/conjugate_gradient.h"
@@ -21,13 +22,22 @@ LinearCounters CountersOf(const InterfaceWorkspace& workspace) {
   return sum;
 }
 
+/// restoring max(0, -gap) / dt of each contact; empty without it.
+std::vector<double> RestoringSpeeds(const PartitionedProblem& problem, const SubdomainProblem& p,
+                                    const AugmentedInterfaceOptions& options) {
+  std::vector<double> speeds;
+  if (options.restoring == 0.0 || problem.dt == 0.0) return speeds;
+  for (const std::int32_t c : p.contact) speeds.push_back(options.restoring * std::max(0.0, -problem.contacts->gap[c]) / problem.dt);
+  return speeds;
+}
+
 }  // namespace
 
 AugmentedInterface::AugmentedInterface(const PartitionedProblem& problem, const AugmentedInterfaceOptions& options,
                                        Communicator* communicator, InterfaceWorkspace* workspace)
     : problem_(problem), options_(options), workspace_(workspace) {
   const double mass = options.reference_mass > 0.0 ? options.reference_mass : problem.mean_mass;
-  for (const SubdomainProblem& p : problem.subdomains) parts_.emplace_back(p, options, mass);
+  for (const SubdomainProblem& p : problem.subdomains) parts_.emplace_back(p, options, mass, RestoringSpeeds(problem, p, options));
   if (options.solve == InterfaceSolve::kDirect) {
     if (!workspace->shared) {
       workspace->shared = std::make_unique<KeptSolver>(MakeSharedSolver(options.library, communicator), communicator);

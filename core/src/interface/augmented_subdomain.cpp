@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nlgs/contact_frame.h"
 
@@ -13,12 +14,13 @@ int AugmentedSubdomain::DofsFor(ContactModel model, Compatibility compatibility)
 }
 
 AugmentedSubdomain::AugmentedSubdomain(const SubdomainProblem& problem, const AugmentedInterfaceOptions& options,
-                                       double reference_mass)
+                                       double reference_mass, std::vector<double> restoring)
     : problem_(problem),
       compatibility_(options.compatibility),
       local_velocity_(options.local_velocity),
       dofs_(DofsFor(problem.model, options.compatibility)),
-      node_of_copy_(problem.body_count(), -1) {
+      node_of_copy_(problem.body_count(), -1),
+      restoring_(std::move(restoring)) {
   const int inertias = Inertias(problem.model);
   for (std::size_t copy = 0; copy < problem.body_count(); ++copy) {
     if (problem.inverse_mass[inertias * copy] == 0.0) continue;
@@ -140,11 +142,12 @@ double AugmentedSubdomain::PrescribedPart(const Column& c, const SubdomainState&
   return v;
 }
 
-/// v_E of a column, by the option local_velocity.
+/// v_E of a column, by the option local_velocity, with the restoring speed.
 double AugmentedSubdomain::OldVelocity(const Column& c, const SubdomainState& state, std::span<const double> left) const {
-  if (local_velocity_ == LocalVelocity::kLocal) return c.is_known ? c.velocity_known : left[c.contact];
+  const double restoring = c.is_normal && !restoring_.empty() ? restoring_[c.contact] : 0.0;
+  if (local_velocity_ == LocalVelocity::kLocal) return restoring + (c.is_known ? c.velocity_known : left[c.contact]);
   const int stride = Dofs(problem_.model);
-  double v = 0.0;
+  double v = restoring;
   for (int d = 0; d < dofs_; ++d) {
     v += c.ga[d] * state.velocity[stride * c.a + d] + c.gb[d] * state.velocity[stride * c.b + d];
   }

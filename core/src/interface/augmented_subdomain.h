@@ -16,8 +16,10 @@ namespace nscdd {
 /// and a node has 2 unknowns instead of 3 (their interface problem is the plain mean).
 class AugmentedSubdomain {
  public:
-  /// `reference_mass` [kg] is what lambda multiplies with LambdaScale::kMass.
-  AugmentedSubdomain(const SubdomainProblem& problem, const AugmentedInterfaceOptions& options, double reference_mass);
+  /// `reference_mass` [kg] is what lambda multiplies with LambdaScale::kMass. `restoring` [m/s], per contact of the subdomain or
+  /// empty, is added to v_E on normals.
+  AugmentedSubdomain(const SubdomainProblem& problem, const AugmentedInterfaceOptions& options, double reference_mass,
+                     std::vector<double> restoring = {});
 
   int dofs() const { return dofs_; }
   int nodes() const { return static_cast<int>(copy_of_node_.size()); }
@@ -73,6 +75,7 @@ class AugmentedSubdomain {
   std::vector<std::int32_t> node_of_copy_, copy_of_node_;
   std::vector<Column> columns_;  // of every candidate contact: its normal, then its tangent if the compatibility has tangents
   std::vector<double> full_weight_;
+  std::vector<double> restoring_;
 };
 
 }  // namespace nscdd

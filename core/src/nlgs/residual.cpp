@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nlgs/contact_frame.h"
+#include "parallel/ordered_reduction.h"
 
 namespace nscdd {
 namespace {
@@ -17,6 +18,10 @@ Local ProjectOnCone(Local z, double mu) {
   const double n = (z.n + mu * zt) / (1.0 + mu * mu);
   return {n, std::copysign(mu * n, z.t)};
 }
+
+/// Minimum and maximum that are NaN when one of the two is.
+double Smaller(double a, double b) { return a < b || std::isnan(a) ? a : b; }
+double Larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
 template <class Row>
 double Friction(const Row& c) {
@@ -32,11 +37,11 @@ double AddContact(const Delassus& w, double offset, double mu, Local r, Local v,
   const double en = r.n - p.n, et = r.t - p.t;
   parts->sum_e2 += en * en + et * et;
   parts->sum_r2 += r.n * r.n + r.t * r.t;
-  const double normal = std::abs(std::min(gap_speed, w.nn * r.n));
-  if (mu == 0.0) return std::max(normal, w.tt * std::abs(r.t));
+  const double normal = std::abs(Smaller(gap_speed, w.nn * r.n));
+  if (mu == 0.0) return Larger(normal, w.tt * std::abs(r.t));
   const double bound = w.tt * mu * std::max(r.n, 0.0);
   const double tangent = std::abs(w.tt * r.t - std::clamp(w.tt * r.t - v.t, -bound, bound));
-  return std::max(normal, tangent);
+  return Larger(normal, tangent);
 }
 
 template <bool kShared, class Row>
@@ -51,8 +56,7 @@ void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const Subd
     const Local v = RelativeVelocity(c, &state.velocity[kDofs * c.a], &state.velocity[kDofs * c.b]);
     const Local r{impulse[0], kUnknowns == 2 ? impulse[kUnknowns - 1] : 0.0};
     const double error = AddContact(w, c.offset, Friction(c), r, v, parts);
-    // A NaN must become the worst contact, so compare the other way round.
-    if (!(error <= parts->worst)) {
+    if (Exceeds(error, parts->worst)) {
       parts->worst = error;
       parts->worst_contact = p.contact[k];
     }

@@ -64,6 +64,11 @@ void Filter(const std::vector<char>& keep, Population* p) {
   filter(p->holders);
 }
 
+[[noreturn]] void RefuseTwice(std::int64_t id) {
+  throw Error(fmt::format("body {} is in the hosts of several ranks; ids are unique and every new body is in exactly one host, the "
+                          "solver makes the ghosts", id));
+}
+
 bool Contains(const std::vector<int>& ranks, int rank) { return std::binary_search(ranks.begin(), ranks.end(), rank); }
 
 }  // namespace
@@ -77,8 +82,8 @@ std::ptrdiff_t Population::RowOf(std::int64_t id) const {
 // and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.
 double Reach::Of(double radius, double bounding_radius) const {
   const double half = 0.5 * (largest_radius + alert);
-  if (bounding_radius == radius) return std::max(radius + alert, 0.5 * radius + half);
-  return bounding_radius + std::max(alert, half);
+  const double exact = bounding_radius == radius ? std::max(radius + alert, 0.5 * radius + half) : bounding_radius + std::max(alert, half);
+  return exact * (1.0 + 1e-6);  // rounding of sites and gaps
 }
 
 void Distribution::TakeOver(BodyTable read) {
@@ -94,27 +99,58 @@ void Distribution::TakeOver(BodyTable read) {
   }
   removed_.clear();
   removed_from_.clear();
-  if (communicator_->size() > 1) {
-    std::vector<char> keep(next.size(), 1);
-    for (std::size_t row = 0; row < population_.size(); ++row) {
-      const std::int64_t id = population_.bodies.id[row];
-      const std::ptrdiff_t now = next.RowOf(id);
-      if (population_.owner[row] != me) {
-        if (now < 0) {
-          throw Error(fmt::format("body {} was removed from the host of rank {}, which holds a ghost of it; remove it on rank {}, "
-                                  "its owner", id, me, population_.owner[row]));
-        }
-        keep[now] = 0;
-      } else if (now >= 0) {
-        next.holders[now] = std::move(population_.holders[row]);
-      } else {
-        removed_.push_back(id);
-        removed_from_.push_back(std::move(population_.holders[row]));
-      }
-    }
-    Filter(keep, &next);
-  }
+  if (communicator_->size() > 1) Recognise(&next);
   population_ = std::move(next);
+}
+
+void Distribution::Recognise(Population* next) {
+  if (settled_) known_ = std::move(population_);
+  settled_ = false;
+  newcomers_ = next->size();
+  std::vector<char> keep(next->size(), 1);
+  std::size_t now = 0;
+  for (std::size_t row = 0; row < known_.size(); ++row) {
+    const std::int64_t id = known_.bodies.id[row];
+    while (now < next->size() && next->bodies.id[now] < id) ++now;
+    const bool is_here = now < next->size() && next->bodies.id[now] == id;
+    newcomers_ -= is_here;
+    if (known_.owner[row] != communicator_->rank()) {
+      if (!is_here) {
+        throw Error(fmt::format("body {} was removed from the host of rank {}, which holds a ghost of it; remove it on rank {}, "
+                                "its owner", id, communicator_->rank(), known_.owner[row]));
+      }
+      keep[now] = 0;
+    } else if (is_here) {
+      next->holders[now] = known_.holders[row];
+    } else {
+      removed_.push_back(id);
+      removed_from_.push_back(known_.holders[row]);
+    }
+  }
+  Filter(keep, next);
+}
+
+// Each id is told to the rank id % ranks, which meets all those that are equal.
+void Distribution::CheckIdsAreUnique() const {
+  const int ranks = communicator_->size();
+  if (ranks == 1) return;
+  std::vector<std::vector<std::int64_t>> told(ranks);
+  for (const std::int64_t id : population_.bodies.id) told[id % ranks].push_back(id);
+  std::vector<std::int64_t> met = std::move(told[communicator_->rank()]);
+  std::vector<Message> outgoing;
+  for (int rank = 0; rank < ranks; ++rank) {
+    if (rank == communicator_->rank() || told[rank].empty()) continue;
+    ByteWriter(&outgoing.emplace_back(Message{rank, {}}).bytes).PutSpan(std::span<const std::int64_t>(told[rank]));
+  }
+  for (const Message& message : communicator_->Deliver(std::move(outgoing))) {
+    const auto more = ByteReader(message.bytes).GetVector<std::int64_t>();
+    met.insert(met.end(), more.begin(), more.end());
+  }
+  RunTogether(communicator_, [&] {
+    std::sort(met.begin(), met.end());
+    const auto twice = std::adjacent_find(met.begin(), met.end());
+    if (twice != met.end()) RefuseTwice(*twice);
+  });
 }
 
 void Distribution::PackBody(std::size_t row, int home, const std::vector<int>& holders, bool with_shapes,
@@ -133,8 +169,10 @@ void Distribution::PackBody(std::size_t row, int home, const std::vector<int>& h
                                        CachedInterfaceImpulse{id, 0, {}},
                                        [](const auto& a, const auto& b) { return a.body < b.body; });
   out.PutSpan(std::span<const CachedInterfaceImpulse>(copies.first, copies.second));
+  out.Put(with_shapes);
+  if (!with_shapes) return;
   std::vector<std::byte> shapes;
-  if (with_shapes) adapter_->transport()->Pack(id, &shapes);
+  adapter_->transport()->Pack(id, &shapes);
   out.PutSpan(std::span<const std::byte>(shapes));
 }
 
@@ -158,7 +196,8 @@ void Distribution::PackAll(const std::vector<Pose>& detection, const Grid& grid,
     std::vector<int>& before = population_.holders[row];
     for (const int rank : needed) {
       const bool has_it = before.empty() ? rank == me : Contains(before, rank);
-      if (rank != me) PackBody(row, home, needed, !has_it, by_carrier, &(*parcels)[rank]);
+      // A new owner's host takes over all that the old one knows (loads, the user's edits), so its ghost is replaced.
+      if (rank != me) PackBody(row, home, needed, !has_it || rank == home, by_carrier, &(*parcels)[rank]);
     }
     for (const int rank : before) {
       if (rank == me || Contains(needed, rank)) continue;
@@ -182,11 +221,19 @@ void Distribution::PackAll(const std::vector<Pose>& detection, const Grid& grid,
   }
 }
 
+/// If this host has one.
+void Distribution::RemoveGhost(std::int64_t id) {
+  const std::ptrdiff_t row = known_.RowOf(id);
+  if (row < 0 || known_.owner[row] == communicator_->rank()) return;
+  known_.owner[row] = communicator_->rank();  // gone
+  adapter_->transport()->Remove(id);
+}
+
 void Distribution::Unpack(const Message& message, ImpulseCache* cache) {
   ByteReader in(message.bytes);
   while (!in.empty()) {
     if (in.Get<Record>() == Record::kRemoval) {
-      adapter_->transport()->Remove(in.Get<std::int64_t>());
+      RemoveGhost(in.Get<std::int64_t>());
       continue;
     }
     BodyTable& t = population_.bodies;
@@ -201,8 +248,10 @@ void Distribution::Unpack(const Message& message, ImpulseCache* cache) {
     const auto interfaces = in.GetVector<CachedInterfaceImpulse>();
     cache->contacts.insert(cache->contacts.end(), contacts.begin(), contacts.end());
     cache->interfaces.insert(cache->interfaces.end(), interfaces.begin(), interfaces.end());
+    if (!in.Get<bool>()) continue;
     const auto shapes = in.GetVector<std::byte>();
-    if (!shapes.empty()) adapter_->transport()->Insert(t.id.back(), shapes);
+    RemoveGhost(t.id.back());
+    adapter_->transport()->Insert(t.id.back(), shapes);
   }
 }
 
@@ -210,10 +259,7 @@ void Distribution::SortRows() {
   SortById(&population_);
   const auto& id = population_.bodies.id;
   const auto twice = std::adjacent_find(id.begin(), id.end());
-  if (twice != id.end()) {
-    throw Error(fmt::format("body {} is in the hosts of several ranks; before the first step every body is in exactly one, the "
-                            "solver makes the ghosts", *twice));
-  }
+  if (twice != id.end()) RefuseTwice(*twice);
 }
 
 void Distribution::Move(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
@@ -237,6 +283,7 @@ void Distribution::Move(const std::vector<Pose>& detection, const Grid& grid, co
     SortRows();
     cache->Sort();
   });
+  settled_ = true;
 }
 
 Sharing Distribution::Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const {

@@ -38,8 +38,15 @@ class Distribution {
  public:
   Distribution(PlatformAdapter* adapter, Communicator* communicator) : adapter_(adapter), communicator_(communicator) {}
 
-  /// The host's bodies: rows of owned and of new ones are taken over, ghosts' rows wait for their owners' words. Local.
+  /// The host's bodies: rows of owned and of new ones are taken over, ghosts' rows wait for their owners' words. Local, and may be
+  /// repeated until Move() has succeeded: a step that failed on another rank leaves no trace.
   void TakeOver(BodyTable read);
+
+  /// Bodies taken over that were not here after the last Move().
+  std::size_t newcomers() const { return newcomers_; }
+
+  /// Throws Error on all ranks when a body is in several hosts. Collective; needed when some rank has newcomers.
+  void CheckIdsAreUnique() const;
 
   /// Moves bodies so that every rank holds what its subdomains need at the configuration `detection` (of the owned rows, in order).
   /// `cache` holds the owned bodies' impulses before, and those of all held bodies after. Collective.
@@ -54,16 +61,21 @@ class Distribution {
 
  private:
   using Parcels = std::map<int, std::vector<std::byte>>;
+  void Recognise(Population* next);
   void PackAll(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
                const ImpulseCache& cache, Parcels* parcels);
   void PackBody(std::size_t row, int home, const std::vector<int>& holders, bool with_shapes, const ImpulseCache& by_carrier,
                 std::vector<std::byte>* bytes);
+  void RemoveGhost(std::int64_t id);
   void Unpack(const Message& message, ImpulseCache* cache);
   void SortRows();
 
   PlatformAdapter* adapter_;
   Communicator* communicator_;
   Population population_;
+  Population known_;      // after the last Move(); what TakeOver() compares with
+  bool settled_ = false;  // population_ is that of a finished Move()
+  std::size_t newcomers_ = 0;
   std::vector<std::int64_t> removed_;          // owned bodies that the host's user removed
   std::vector<std::vector<int>> removed_from_;  // their other holders
   std::vector<std::int64_t> leaving_;           // bodies that this host need not hold any more

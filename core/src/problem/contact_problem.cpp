@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "algorithms/algorithms.h"
 #include "algorithms/monitor.h"
@@ -18,8 +19,9 @@
 namespace nscdd {
 namespace {
 
-void Require(bool holds, const std::string& sentence) {
-  if (!holds) throw Error(sentence);
+template <class... Arguments>
+void Require(bool holds, fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
+  if (!holds) throw Error(fmt::format(sentence, std::forward<Arguments>(arguments)...));
 }
 
 void CheckBodies(const ContactProblem& p) {
@@ -28,36 +30,44 @@ void CheckBodies(const ContactProblem& p) {
           "contact problem: mass, inertia, free_velocity and impulse need one entry per body");
   for (std::size_t i = 0; i < n; ++i) {
     Require(p.mass[i] > 0.0 && p.inertia[i] > 0.0 && std::isinf(p.mass[i]) == std::isinf(p.inertia[i]),
-            fmt::format("contact problem: body {} has mass {} and inertia {}; both are positive, or both +inf if its motion is "
-                        "prescribed", i, p.mass[i], p.inertia[i]));
+            "contact problem: body {} has mass {} and inertia {}; both are positive, or both +inf if its motion is prescribed", i,
+            p.mass[i], p.inertia[i]);
     const Twist& v = p.free_velocity[i];
     const Wrench& f = p.impulse[i];
     Require(std::isfinite(v.vx + v.vy + v.spin) && (std::isinf(p.mass[i]) || std::isfinite(f.fx + f.fy + f.torque)),
-            fmt::format("contact problem: body {} has a velocity or impulse that is not finite", i));
+            "contact problem: body {} has a velocity or impulse that is not finite", i);
   }
+  Require(p.approach_speed >= 0.0 && std::isfinite(p.approach_speed),
+          "contact problem: approach_speed is {} m/s; it must be finite and not negative", p.approach_speed);
+}
+
+void CheckContact(const ContactProblem& p, std::size_t c) {
+  const ContactTable& t = p.contacts;
+  const auto bodies = static_cast<std::int32_t>(p.mass.size());
+  Require(t.a[c] >= 0 && t.a[c] < bodies && t.b[c] >= 0 && t.b[c] < bodies && t.a[c] != t.b[c],
+          "contact problem: contact {} joins bodies {} and {}; there are {} bodies", c, t.a[c], t.b[c], bodies);
+  Require(!std::isinf(p.mass[t.a[c]]) || !std::isinf(p.mass[t.b[c]]),
+          "contact problem: contact {} joins two prescribed bodies; leave it out", c);
+  Require(std::abs(Norm(t.normal[c]) - 1.0) < 1e-9, "contact problem: the normal of contact {} has length {}, not 1", c,
+          Norm(t.normal[c]));
+  Require(std::isfinite(t.gap[c] + t.lever_a[c] + t.lever_b[c] + p.offset[c]),
+          "contact problem: contact {} has a gap, lever or offset that is not finite", c);
+  Require(!t.has_arms() || std::isfinite(t.arm_a[c].x + t.arm_a[c].y + t.arm_b[c].x + t.arm_b[c].y),
+          "contact problem: contact {} has an arm that is not finite", c);
+  Require(t.friction[c] >= 0.0 && std::isfinite(t.friction[c]), "contact problem: contact {} has friction {}; it must be finite and not "
+          "negative", c, t.friction[c]);
+  Require(p.subdomain.empty() || (p.subdomain[c] >= 0 && p.subdomain[c] < 1'000'000),
+          "contact problem: contact {} is in subdomain {}; numbers go from 0 to 999999", c, p.subdomain.empty() ? 0 : p.subdomain[c]);
 }
 
 void CheckContacts(const ContactProblem& p) {
   const ContactTable& t = p.contacts;
   const std::size_t n = t.size();
-  const auto bodies = static_cast<std::int32_t>(p.mass.size());
   Require(t.a.size() == n && t.b.size() == n && t.normal.size() == n && t.lever_a.size() == n && t.lever_b.size() == n &&
               t.friction.size() == n && p.offset.size() == n && (p.subdomain.empty() || p.subdomain.size() == n) &&
               t.arm_a.size() == t.arm_b.size() && (t.arm_a.empty() || t.arm_a.size() == n),
           "contact problem: the columns of the contacts differ in length");
-  for (std::size_t c = 0; c < n; ++c) {
-    Require(t.a[c] >= 0 && t.a[c] < bodies && t.b[c] >= 0 && t.b[c] < bodies && t.a[c] != t.b[c],
-            fmt::format("contact problem: contact {} joins bodies {} and {}; there are {} bodies", c, t.a[c], t.b[c], bodies));
-    Require(!std::isinf(p.mass[t.a[c]]) || !std::isinf(p.mass[t.b[c]]),
-            fmt::format("contact problem: contact {} joins two prescribed bodies; leave it out", c));
-    Require(std::abs(Norm(t.normal[c]) - 1.0) < 1e-9, fmt::format("contact problem: the normal of contact {} has length {}, not 1",
-                                                                   c, Norm(t.normal[c])));
-    Require(std::isfinite(t.gap[c] + t.lever_a[c] + t.lever_b[c] + p.offset[c]) && t.friction[c] >= 0.0 &&
-                std::isfinite(t.friction[c]),
-            fmt::format("contact problem: contact {} has a gap, lever, offset or friction that is not finite, or friction < 0", c));
-    Require(p.subdomain.empty() || p.subdomain[c] >= 0, fmt::format("contact problem: contact {} is in subdomain {} < 0", c,
-                                                                   p.subdomain.empty() ? 0 : p.subdomain[c]));
-  }
+  for (std::size_t c = 0; c < n; ++c) CheckContact(p, c);
 }
 
 double InverseOf(double mass) { return std::isinf(mass) ? 0.0 : 1.0 / mass; }

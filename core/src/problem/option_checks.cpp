@@ -37,6 +37,7 @@ void Check(const AugmentedInterfaceOptions& o) {
           fmt::format("lambda is {}; it must be in [0, 1e8]: above, F = y - M_lambda V~ has no digits left", o.lambda));
   Require(o.reference_mass >= 0.0 && std::isfinite(o.reference_mass),
           fmt::format("reference_mass is {} kg; it must not be negative (0: mean mass)", o.reference_mass));
+  Require(o.restoring >= 0.0 && o.restoring <= 1.0, fmt::format("restoring is {}; it must be in [0, 1]", o.restoring));
   Require(o.cg_tolerance > 0.0 && o.cg_tolerance < 1.0, fmt::format("cg_tolerance is {}; it must be in (0, 1)", o.cg_tolerance));
   RequireAtLeast("cg_max_iterations", o.cg_max_iterations, 1);
 }

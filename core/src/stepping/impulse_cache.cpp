@@ -14,8 +14,14 @@ bool ByBody(const CachedInterfaceImpulse& a, const CachedInterfaceImpulse& b) {
 }  // namespace
 
 void ImpulseCache::Sort() {
-  if (!std::is_sorted(contacts.begin(), contacts.end(), ByKey)) std::sort(contacts.begin(), contacts.end(), ByKey);
-  if (!std::is_sorted(interfaces.begin(), interfaces.end(), ByBody)) std::sort(interfaces.begin(), interfaces.end(), ByBody);
+  const auto sort = [](auto* entries, auto before) {
+    if (!std::is_sorted(entries->begin(), entries->end(), before)) std::sort(entries->begin(), entries->end(), before);
+    // Neighbours in the order are equal when neither is before the other.
+    const auto equal = [&](const auto& a, const auto& b) { return !before(a, b); };
+    entries->erase(std::unique(entries->begin(), entries->end(), equal), entries->end());
+  };
+  sort(&contacts, ByKey);
+  sort(&interfaces, ByBody);
 }
 
 void ImpulseCache::Append(const ImpulseCache& other) {

@@ -31,6 +31,7 @@ struct ImpulseCache {
   std::vector<CachedInterfaceImpulse> interfaces;  ///< by (body, subdomain)
   double dt = 0.0;                                 ///< [s] of the step that left them
 
+  /// Also drops entries that are there twice (a step was repeated after a failure).
   void Sort();
   void Append(const ImpulseCache& other);
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -31,6 +32,12 @@ double SecondsSince(Clock::time_point start) { return std::chrono::duration<doub
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw Error(sentence);
 }
+
+bool IsFinite(const BodyRecord& b) {
+  return std::isfinite(b.pose.x + b.pose.y + b.pose.angle) && std::isfinite(b.velocity.vx + b.velocity.vy + b.velocity.spin);
+}
+
+constexpr std::uint64_t kStateMark = 0x315453444453434e;  // "NCSDDST1": these bytes are a saved state of this layout
 
 }  // namespace
 
@@ -99,7 +106,8 @@ class TimeStepper::Impl {
 
   void Distribute(double dt);
   void ChooseAlertDistance();
-  void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius);
+  double alert() const { return std::max(0.0, alert_); }
+  void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers);
   void Detect();
   void SelectContacts();
   void Prepare(double dt);
@@ -110,6 +118,7 @@ class TimeStepper::Impl {
   void Advance(double dt);
   void RecordContacts(double half);
   void Summarise(double dt);
+  void CheckResult() const;
   void CommitStep();
   void CountCommunication(const CommunicationCounters& before);
 
@@ -127,7 +136,7 @@ class TimeStepper::Impl {
   Grid grid_;
   ImpulseCache cache_;
   InterfaceWorkspace workspace_;
-  double alert_ = -1.0;
+  double alert_ = -1.0;  // [m] < 0: not chosen yet
   std::int64_t step_ = 0;
   double time_ = 0.0;
 
@@ -162,8 +171,10 @@ void TimeStepper::Impl::Distribute(double dt) {
   };
   drift_all();
   Reach reach;
-  reach.alert = alert_;
-  PlaceCuts(detection_, &reach.largest_radius);
+  reach.alert = alert();
+  bool newcomers = false;
+  PlaceCuts(detection_, &reach.largest_radius, &newcomers);
+  if (newcomers) distribution_.CheckIdsAreUnique();
   distribution_.Move(detection_, grid_, blocks_, reach, &cache_);
   if (communicator_->size() > 1) drift_all();
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
@@ -181,7 +192,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   sharing_ = distribution_.Share(std::move(pairs));
 }
 
-/// A tenth of the mean disk radius of free bodies. Radii are summed as multiples of 2^-26 of the largest: exact in any order.
+/// A tenth of the mean disk radius of free bodies, once there are some. Radii are summed as multiples of 2^-26 of the largest: exact in any order.
 void TimeStepper::Impl::ChooseAlertDistance() {
   alert_ = stepping_.alert_distance;
   if (alert_ >= 0.0) return;
@@ -204,13 +215,13 @@ void TimeStepper::Impl::ChooseAlertDistance() {
     sum += all[i];
     count += all[i + 1];
   }
-  alert_ = count > 0.0 ? 0.1 * largest * (sum / unit / count) : 0.0;
+  if (count > 0.0) alert_ = 0.1 * largest * (sum / unit / count);
 }
 
 /// The grid covers the centres of the free bodies (minima and maxima are exact in any order).
-void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* largest_radius) {
+void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers) {
   const double infinity = std::numeric_limits<double>::infinity();
-  double box[5] = {infinity, infinity, infinity, infinity, 0.0};
+  double box[6] = {infinity, infinity, infinity, infinity, 0.0, -static_cast<double>(distribution_.newcomers())};
   for (std::size_t i = 0; i < rows(); ++i) {
     box[4] = std::min(box[4], -bodies().radius[i]);
     if (!IsFree(i)) continue;
@@ -221,6 +232,7 @@ void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* la
   }
   communicator_->AllReduceMin(box);
   *largest_radius = -box[4];
+  *newcomers = box[5] < 0.0;
   if (step_ % partition_.repartition_every != 0) return;
   const bool empty = box[0] == infinity;
   grid_ = Grid(empty ? Vec2{} : Vec2{box[0], box[1]}, empty ? Vec2{} : Vec2{-box[2], -box[3]}, partition_.nx, partition_.ny);
@@ -229,8 +241,8 @@ void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* la
 
 void TimeStepper::Impl::Detect() {
   contacts_.Clear();
-  adapter_->DetectContacts({bodies().id, detection_}, alert_, &contacts_);
-  CheckContacts(contacts_, bodies(), alert_, description_);
+  adapter_->DetectContacts({bodies().id, detection_}, alert(), &contacts_);
+  CheckContacts(contacts_, bodies(), alert(), description_);
 }
 
 // 4 partition: each contact to the subdomain of its site.
@@ -261,6 +273,7 @@ void TimeStepper::Impl::Prepare(double dt) {
   }
   problem_.interface = MakeInterfaceMap(problem_.subdomains, sharing_, blocks_, communicator_->rank());
   problem_.contacts = &contacts_;
+  problem_.dt = dt;
   problem_.body_id = &bodies().id;
 }
 
@@ -344,6 +357,7 @@ void TimeStepper::Impl::SolveProblem(double dt) {
                       ? ReportWithoutContacts(problem_)
                       : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &workspace_, &state); }, algorithm_);
   report_.solve.subdomains = grid_.cells();
+  if (problem_.contact_count == 0) report_.solve.empty_subdomains = grid_.cells();
 
   impulse_.assign(contacts_.size(), {});
   relative_velocity_.assign(contacts_.size(), {});
@@ -396,8 +410,8 @@ void TimeStepper::Impl::RecordContacts(double half) {
 }
 
 void TimeStepper::Impl::Summarise(double dt) {
-  // sums: kinetic energy, momentum, interpenetration, injected energy;  maxima: interpenetration, speed
-  std::vector<ReductionPart<5, 2>> parts(local_subdomains_);
+  // sums: kinetic energy, momentum, interpenetration, injected energy;  maxima: interpenetration, drift, numbers that are not finite
+  std::vector<ReductionPart<5, 3>> parts(local_subdomains_);
   for (auto& part : parts) part = {};
   for (std::size_t i = 0; i < rows(); ++i) {
     if (!IsFree(i) || !distribution_.Owns(i)) continue;
@@ -407,26 +421,35 @@ void TimeStepper::Impl::Summarise(double dt) {
     part[0] += 0.5 * (m * speed2 + bodies().inertia[i] * v.spin * v.spin);
     part[1] += m * v.vx;
     part[2] += m * v.vy;
-    part[6] = std::max(part[6], std::sqrt(speed2));
+    const Vec2 drift = (1.0 - stepping_.theta) * dt * Linear(bodies().velocity[i]) + stepping_.theta * dt * Linear(v);
+    part[6] = std::max(part[6], std::sqrt(Dot(drift, drift)));
   }
+  parts.front()[7] = std::all_of(body_records_.begin(), body_records_.end(), IsFinite) ? 0.0 : 1.0;
   std::size_t row = 0;
   for (std::size_t e = 0; e < chosen_.size(); ++e) {
     for (const std::int32_t c : chosen_[e]) {
       const double interpenetration = std::max(0.0, -contact_records_[row++].final_gap);
       parts[e][3] += interpenetration;
-      parts[e][4] += impulse_[c].x * std::max(0.0, -offset_[c]);
+      parts[e][4] += impulse_[c].x * std::max(0.0, -NormalOffset(stepping_, contacts_.gap[c], 0.0, 0.0, dt));
       parts[e][5] = std::max(parts[e][5], interpenetration);
     }
   }
-  const auto t = ReduceInOrder<5, 2>(parts, communicator_);
+  const auto t = ReduceInOrder<5, 3>(parts, communicator_);
+  if (t[7] > 0.0) RunTogether(communicator_, [&] { CheckResult(); });
   report_.kinetic_energy = t[0];
   report_.momentum_x = t[1];
   report_.momentum_y = t[2];
   report_.mean_interpenetration = problem_.contact_count > 0 ? t[3] / static_cast<double>(problem_.contact_count) : 0.0;
   report_.max_interpenetration = t[5];
-  report_.injected_energy = stepping_.normal_law == NormalLaw::kFeedback ? t[4] : 0.0;
-  report_.max_drift = t[6] * dt;
-  report_.alert_distance = alert_;
+  report_.injected_energy = t[4];
+  report_.max_drift = t[6];
+  report_.alert_distance = alert();
+}
+
+void TimeStepper::Impl::CheckResult() const {
+  const auto bad = std::find_if_not(body_records_.begin(), body_records_.end(), IsFinite);
+  if (bad == body_records_.end()) return;
+  throw Error(fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", bad->id));
 }
 
 void TimeStepper::Impl::CommitStep() {
@@ -434,9 +457,6 @@ void TimeStepper::Impl::CommitStep() {
   std::vector<Pose> pose;
   std::vector<Twist> velocity;
   for (const BodyRecord& body : body_records_) {
-    if (!std::isfinite(body.pose.x + body.pose.y + body.pose.angle + body.velocity.vx + body.velocity.vy + body.velocity.spin)) {
-      throw Error(fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", body.id));
-    }
     id.push_back(body.id);
     pose.push_back(body.pose);
     velocity.push_back(body.velocity);
@@ -469,6 +489,9 @@ void TimeStepper::Impl::CountCommunication(const CommunicationCounters& before) 
 std::vector<std::byte> TimeStepper::Impl::SaveState() const {
   std::vector<std::byte> bytes;
   ByteWriter out(&bytes);
+  out.Put(kStateMark);
+  out.Put(partition_.nx);
+  out.Put(partition_.ny);
   out.Put(step_);
   out.Put(time_);
   out.Put(alert_);
@@ -481,13 +504,24 @@ std::vector<std::byte> TimeStepper::Impl::SaveState() const {
 
 void TimeStepper::Impl::LoadState(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
-  step_ = in.Get<std::int64_t>();
-  time_ = in.Get<double>();
-  alert_ = in.Get<double>();
-  grid_ = in.Get<Grid>();
-  cache_.dt = in.Get<double>();
-  cache_.contacts = in.GetVector<CachedImpulse>();
-  cache_.interfaces = in.GetVector<CachedInterfaceImpulse>();
+  Require(bytes.size() >= sizeof kStateMark && in.Get<std::uint64_t>() == kStateMark, "these bytes are no saved state of a time stepper");
+  const auto nx = in.Get<int>(), ny = in.Get<int>();
+  Require(nx == partition_.nx && ny == partition_.ny,
+          fmt::format("the saved state is one of {}x{} subdomains, this solver has {}x{}; continue with the same partition", nx, ny,
+                      partition_.nx, partition_.ny));
+  const auto step = in.Get<std::int64_t>();
+  const auto time = in.Get<double>(), alert = in.Get<double>();
+  const auto grid = in.Get<Grid>();
+  ImpulseCache cache;
+  cache.dt = in.Get<double>();
+  cache.contacts = in.GetVector<CachedImpulse>();
+  cache.interfaces = in.GetVector<CachedInterfaceImpulse>();
+  Require(in.empty(), "the saved state is longer than it says it is");
+  step_ = step;
+  time_ = time;
+  alert_ = alert;
+  grid_ = grid;
+  cache_ = std::move(cache);
 }
 
 TimeStepper::TimeStepper(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter,

@@ -114,7 +114,8 @@ class SourceVisitor {
   }
 
   [[noreturn]] static void RefuseChange(const DiskFile& file) {
-    throw Error(fmt::format("{}: has fewer disks than when the scene was read; leave it alone during a run.", file.path.string()));
+    throw Error(
+        fmt::format("{}: has fewer disks than when the scene was read; leave it alone during a run.", file.path.string()));
   }
 
   const Scene& scene_;
@@ -162,9 +163,10 @@ void CheckAgainstNumbers(const Scene& scene, const std::vector<OwnId>& sorted) {
     const auto found = std::lower_bound(sorted.begin(), sorted.end(), number,
                                         [](const OwnId& id, std::int64_t first) { return id.id < first; });
     if (NumbersItself(source) && found != sorted.end() && found->id < number + source.count) {
-      throw Error(fmt::format("{} {} is the number of a body of '{}' (line {}), which has no id and is numbered by its place in the "
-                              "scene, walls first; give ids from {} up.",
-                              Place(scene, *found), found->id, source.key, source.line, CountBodies(scene)));
+      throw Error(
+          fmt::format("{} {} is the number of a body of '{}' (line {}), which has no id and is numbered by its place in the "
+                      "scene, walls first; give ids from {} up.",
+                      Place(scene, *found), found->id, source.key, source.line, CountBodies(scene)));
     }
     number += source.count;
   }
@@ -193,13 +195,12 @@ void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<vo
 void CheckIds(const Scene& scene) {
   std::vector<OwnId> ids;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) CollectIds(scene.bodies[i], static_cast<std::int32_t>(i), &ids);
-  std::sort(ids.begin(), ids.end(), [](const OwnId& a, const OwnId& b) {
-    return std::tie(a.id, a.source, a.line) < std::tie(b.id, b.source, b.line);
-  });
+  std::sort(ids.begin(), ids.end(),
+            [](const OwnId& a, const OwnId& b) { return std::tie(a.id, a.source, a.line) < std::tie(b.id, b.source, b.line); });
   const auto twin = std::adjacent_find(ids.begin(), ids.end(), [](const OwnId& a, const OwnId& b) { return a.id == b.id; });
   if (twin != ids.end()) {
-    throw Error(fmt::format("{} {} is a duplicate: the first body of this id is at {}; give each body its own.", Place(scene, twin[1]),
-                            twin->id, Place(scene, *twin)));
+    throw Error(fmt::format("{} {} is a duplicate: the first body of this id is at {}; give each body its own.",
+                            Place(scene, twin[1]), twin->id, Place(scene, *twin)));
   }
   CheckAgainstNumbers(scene, ids);
 }

@@ -35,8 +35,8 @@ std::optional<Vec2> OnDiskAndSide(const reference::Disk& disk, double x, double 
 
 reference::Disk DepositionGenerator::Next() {
   const double width = deposition_.right - deposition_.left;
-  const double radius = deposition_.min_radius + (deposition_.max_radius - deposition_.min_radius) *
-                                                     UniformNumber(deposition_.seed, 2 * index_);
+  const double radius =
+      deposition_.min_radius + (deposition_.max_radius - deposition_.min_radius) * UniformNumber(deposition_.seed, 2 * index_);
   const double x = deposition_.left + width * UniformNumber(deposition_.seed, 2 * index_ + 1);
   ++index_;
   if (!floor_is_full_) {
@@ -49,7 +49,8 @@ reference::Disk DepositionGenerator::Next() {
   if (!found) found = LowestSeat(deposition_.left, deposition_.right, radius);
   const Seat seat = found ? *found : OnTop(radius);
   const auto begin = surface_.begin();
-  const auto place = surface_.erase(begin + static_cast<std::ptrdiff_t>(seat.first), begin + static_cast<std::ptrdiff_t>(seat.last));
+  const auto place =
+      surface_.erase(begin + static_cast<std::ptrdiff_t>(seat.first), begin + static_cast<std::ptrdiff_t>(seat.last));
   return *surface_.insert(place, reference::Disk{seat.centre, radius});
 }
 
@@ -112,7 +113,9 @@ std::optional<DepositionGenerator::Seat> DepositionGenerator::LowestSeat(double 
   const auto count = static_cast<std::ptrdiff_t>(surface_.size());
   const double widest = 2.0 * (radius + deposition_.max_radius);
   const auto first = from <= deposition_.left ? std::ptrdiff_t{-1} : static_cast<std::ptrdiff_t>(FirstFrom(from));
-  const auto position = [&](std::ptrdiff_t i) { return i < 0 ? deposition_.left : surface_[static_cast<std::size_t>(i)].centre.x; };
+  const auto position = [&](std::ptrdiff_t i) {
+    return i < 0 ? deposition_.left : surface_[static_cast<std::size_t>(i)].centre.x;
+  };
   for (std::ptrdiff_t left = first; left < count && position(left) <= to; ++left) {
     // Low disks may lie between the two that carry the new one; it covers them.
     for (std::ptrdiff_t right = left + 1; right <= count; ++right) {
@@ -132,8 +135,10 @@ DepositionGenerator::Seat DepositionGenerator::OnTop(double radius) const {
   const auto top = [](const reference::Disk& disk) { return disk.centre.y + disk.radius; };
   const auto highest = std::max_element(surface_.begin(), surface_.end(),
                                         [&](const reference::Disk& p, const reference::Disk& q) { return top(p) < top(q); });
-  const Vec2 centre{std::clamp(highest->centre.x, deposition_.left + radius, deposition_.right - radius), top(*highest) + radius};
-  const auto right = std::find_if(surface_.begin(), surface_.end(), [&](const reference::Disk& disk) { return disk.centre.x > centre.x; });
+  const Vec2 centre{std::clamp(highest->centre.x, deposition_.left + radius, deposition_.right - radius),
+                    top(*highest) + radius};
+  const auto right =
+      std::find_if(surface_.begin(), surface_.end(), [&](const reference::Disk& disk) { return disk.centre.x > centre.x; });
   const auto place = static_cast<std::size_t>(right - surface_.begin());
   return {centre, place, place};
 }

@@ -45,13 +45,20 @@ std::optional<T> Parse(std::string_view text) {
 
 double* Target(std::size_t column, DiskRow* row) {
   switch (column) {
-    case kX: return &row->pose.x;
-    case kY: return &row->pose.y;
-    case kRadius: return &row->radius;
-    case kAngle: return &row->pose.angle;
-    case kVx: return &row->velocity.vx;
-    case kVy: return &row->velocity.vy;
-    default: return &row->velocity.spin;
+    case kX:
+      return &row->pose.x;
+    case kY:
+      return &row->pose.y;
+    case kRadius:
+      return &row->radius;
+    case kAngle:
+      return &row->pose.angle;
+    case kVx:
+      return &row->velocity.vx;
+    case kVy:
+      return &row->velocity.vy;
+    default:
+      return &row->velocity.spin;
   }
 }
 
@@ -60,12 +67,13 @@ double* Target(std::size_t column, DiskRow* row) {
 DiskFileReader::DiskFileReader(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error)) stream_.open(path);
-  if (!stream_.is_open()) throw Error(fmt::format("{}: cannot be read; check that this CSV file is there and readable.", path.string()));
+  if (!stream_.is_open())
+    throw Error(fmt::format("{}: cannot be read; check that this CSV file is there and readable.", path.string()));
   ReadHeader();
 }
 
 void DiskFileReader::Refuse(const std::string& what) const {
-  throw Error(fmt::format("{}:{}: {}.", path_.string(), std::max<std::int64_t>(line_number_, 1), what));
+  throw Error(Sentence(fmt::format("{}:{}: {}", path_.string(), std::max<std::int64_t>(line_number_, 1), what)));
 }
 
 bool DiskFileReader::NextLine() {
@@ -74,7 +82,8 @@ bool DiskFileReader::NextLine() {
     // Sets failbit when the line fills the array, and with eofbit when there is no further line.
     stream_.getline(line_.data(), line_.size());
     if (stream_.bad()) Refuse("reading failed here; check the disk");
-    if (stream_.fail() && !stream_.eof()) Refuse(fmt::format("the line is longer than {} characters; give one disk per line", line_.size() - 2));
+    if (stream_.fail() && !stream_.eof())
+      Refuse(fmt::format("the line is longer than {} characters; give one disk per line", line_.size() - 2));
     const std::string_view text = Trim(line_.data());
     if (!text.empty() && text.front() != '#') return true;
   }
@@ -88,7 +97,8 @@ void DiskFileReader::ReadHeader() {
   for (const std::string_view field : Split(text)) {
     const auto& names = ColumnNames();
     const auto name = std::find(names.begin(), names.end(), field);
-    if (name == names.end()) Refuse(fmt::format("column '{}' is unknown; {}", field, Suggestion(field, names, "known columns")));
+    if (name == names.end())
+      Refuse(fmt::format("column '{}' is unknown; {}", field, Suggestion(field, names, "known columns")));
     const auto column = static_cast<std::size_t>(name - names.begin());
     if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
       Refuse(fmt::format("column '{}' is there twice; keep one", field));
@@ -108,7 +118,8 @@ bool DiskFileReader::Next(DiskRow* row) {
   row->line = line_number_;
   const std::vector<std::string_view> fields = Split(line_.data());
   if (fields.size() != columns_.size()) {
-    Refuse(fmt::format("{} fields where the first line names {} columns; give one value per column", fields.size(), columns_.size()));
+    Refuse(fmt::format("{} fields where the first line names {} columns; give one value per column", fields.size(),
+                       columns_.size()));
   }
   for (std::size_t i = 0; i < fields.size(); ++i) ReadField(columns_[i], fields[i], row);
   return true;
@@ -125,7 +136,8 @@ void DiskFileReader::ReadField(std::size_t column, std::string_view field, DiskR
     return;
   }
   const std::optional<double> number = Parse<double>(field);
-  if (!number || !std::isfinite(*number)) Refuse(fmt::format("{} '{}' is not a finite number; give one", ColumnNames()[column], field));
+  if (!number || !std::isfinite(*number))
+    Refuse(fmt::format("{} '{}' is not a finite number; give one", ColumnNames()[column], field));
   if (column == kRadius && *number <= 0.0) Refuse(fmt::format("radius {} is not positive; give a length > 0 [m]", field));
   *Target(column, row) = *number;
 }

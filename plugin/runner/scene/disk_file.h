@@ -18,8 +18,8 @@ struct DiskRow {
   std::optional<std::int64_t> id;  ///< only if the file has this column
   Pose pose;
   Twist velocity;
-  double radius = 0.0;             ///< [m] > 0
-  std::string material;            ///< empty: not said
+  double radius = 0.0;   ///< [m] > 0
+  std::string material;  ///< empty: not said
   std::int64_t line = 0;
 };
 

@@ -13,8 +13,8 @@ struct Evaluate {
   Vec2 operator()(const ConstantGravity& law) const { return law.vector; }
 
   Vec2 operator()(const RotatingGravity& law) const {
-    const double share = law.in_steps ? static_cast<double>(step - 1) / static_cast<double>(*law.in_steps - 1)
-                                      : time / law.in_time;
+    const double share =
+        law.in_steps ? static_cast<double>(step - 1) / static_cast<double>(*law.in_steps - 1) : time / law.in_time;
     const double angle = share < 1.0 ? law.from_angle + (law.to_angle - law.from_angle) * share : law.to_angle;
     return {law.g * std::sin(angle), -law.g * std::cos(angle)};
   }

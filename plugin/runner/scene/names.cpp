@@ -44,9 +44,14 @@ std::string NearestName(std::string_view word, std::span<const std::string> know
   return best;
 }
 
+std::string Sentence(std::string text) {
+  if (!text.ends_with('?')) text += '.';
+  return text;
+}
+
 std::string Suggestion(std::string_view word, std::span<const std::string> known, std::string_view noun) {
   const std::string nearest = NearestName(word, known);
-  if (!nearest.empty()) return fmt::format("perhaps '{}' is meant", nearest);
+  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
   return fmt::format("{} are {}", noun, fmt::join(known, ", "));
 }
 

@@ -13,7 +13,8 @@ namespace nscdd {
 std::unique_ptr<Platform> MakePlatform(const std::string& name, const Scene& scene) {
   if (name == "reference") return MakeReferencePlatform(scene);
   if (name == "box2d") return MakeBox2dPlatform(scene);
-  throw Error(fmt::format("Adapter '{}' is unknown; {}.", name, Suggestion(name, std::vector<std::string>{"box2d", "reference"}, "known adapters")));
+  const std::vector<std::string> names = {"box2d", "reference"};
+  throw Error(Sentence(fmt::format("Adapter '{}' is unknown; {}", name, Suggestion(name, names, "known adapters"))));
 }
 
 }  // namespace nscdd

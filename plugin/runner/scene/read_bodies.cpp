@@ -24,8 +24,8 @@ bool HasMass(double radius, double density) {
 
 void CheckMass(const TableReader& entry, std::string_view key, double radius, const Material& material) {
   if (HasMass(radius, material.density)) return;
-  entry.Refuse(key, fmt::format("{} m with density {} kg/m^2 gives a mass that no computer number holds; change one of them", radius,
-                                material.density));
+  entry.Refuse(key, fmt::format("{} m with density {} kg/m^2 gives a mass that no computer number holds; change one of them",
+                                radius, material.density));
 }
 
 /// A file that the scene names: below the scene's own folder, so that a scene can be copied with what it needs.
@@ -63,7 +63,8 @@ std::pair<double, double> ReadRadii(TableReader* entry) {
 
 std::pair<double, double> ReadSides(TableReader* entry) {
   const std::vector<double> sides = entry->List("x", 2, "[left, right] [m]");
-  if (!(sides[0] < sides[1])) entry->Refuse("x", fmt::format("is [{}, {}]; give [left, right] with left < right [m]", sides[0], sides[1]));
+  if (!(sides[0] < sides[1]))
+    entry->Refuse("x", fmt::format("is [{}, {}]; give [left, right] with left < right [m]", sides[0], sides[1]));
   return {sides[0], sides[1]};
 }
 
@@ -81,7 +82,8 @@ BodySource ReadGenerator(TableReader* entry, const Scene& scene, Generator* gene
   CheckMass(*entry, "radius", generator->min_radius, material);
   CheckMass(*entry, "radius", generator->max_radius, material);
   if (2.0 * generator->max_radius > generator->right - generator->left) {
-    entry->Refuse("x", fmt::format("is narrower than the largest disk ({} m); widen it or give smaller radii", 2.0 * generator->max_radius));
+    entry->Refuse("x", fmt::format("is narrower than the largest disk ({} m); widen it or give smaller radii",
+                                   2.0 * generator->max_radius));
   }
   return source;
 }
@@ -92,9 +94,11 @@ BodySource ReadLattice(TableReader* entry, const Scene& scene) {
   lattice.jitter = entry->Number("jitter", Bound::kNotNegative, "[m]", 0.0);
   lattice.spacing = entry->Number("spacing", Bound::kPositive, "[m]", 2.0 * (lattice.max_radius + lattice.jitter));
   lattice.hexagonal = entry->Choice("pattern", {"square", "hexagonal"}, "square") == "hexagonal";
-  if (LatticeColumns(lattice) < 1) entry->Refuse("x", "is too narrow for one column of this lattice; widen it, or reduce jitter or spacing");
+  if (LatticeColumns(lattice) < 1)
+    entry->Refuse("x", "is too narrow for one column of this lattice; widen it, or reduce jitter or spacing");
   const Vec2 last = LatticeDisk(lattice, source.count - 1).centre;
-  if (!std::isfinite(last.x + last.y)) entry->Refuse("count", "leads beyond the largest number; give fewer disks or a smaller spacing");
+  if (!std::isfinite(last.x + last.y))
+    entry->Refuse("count", "leads beyond the largest number; give fewer disks or a smaller spacing");
   source.what = lattice;
   return source;
 }
@@ -126,7 +130,8 @@ BodySource ReadDiskFile(TableReader* entry, const Scene& scene) {
       throw Error(fmt::format("{} radius {} m gives a mass that no computer number holds; change it.", where, row.radius));
     }
   }
-  if (source.count == 0) entry->Refuse("file", fmt::format("names {}, which has no disk; add rows or leave the entry out", path.string()));
+  if (source.count == 0)
+    entry->Refuse("file", fmt::format("names {}, which has no disk; add rows or leave the entry out", path.string()));
   source.what = DiskFile{path, reader.has_ids(), radii / static_cast<double>(source.count)};
   return source;
 }
@@ -168,7 +173,8 @@ BodySource ReadCluster(TableReader* entry, const Scene& scene) {
   cluster.inertia = ReadOptional(entry, "inertia", "[kg m^2]");
   source.id = ReadId(entry);
   source.count = static_cast<std::int64_t>(cluster.at.size());
-  if (source.id && source.count > 1) entry->Refuse("id", "names one body but 'at' makes several; give one place or leave the id out");
+  if (source.id && source.count > 1)
+    entry->Refuse("id", "names one body but 'at' makes several; give one place or leave the id out");
   source.what = std::move(cluster);
   return source;
 }
@@ -190,7 +196,8 @@ int FindMaterial(const Scene& scene, const std::string& name, const std::string&
     if (material.name == name) return static_cast<int>(names.size());
     names.push_back(material.name);
   }
-  throw Error(fmt::format("{} material '{}' is not one of [[materials]]; {}.", where, name, Suggestion(name, names, "known names")));
+  throw Error(Sentence(
+      fmt::format("{} material '{}' is not one of [[materials]]; {}", where, name, Suggestion(name, names, "known names"))));
 }
 
 BodySource ReadSource(TableReader* entry, const Scene& scene) {
@@ -198,7 +205,8 @@ BodySource ReadSource(TableReader* entry, const Scene& scene) {
   source.key = entry->path();
   source.line = entry->Line();
   if (entry->Has("material")) {
-    const std::string where = fmt::format("{}:{}: key '{}.material':", entry->file().string(), entry->Line("material"), entry->path());
+    const std::string where =
+        fmt::format("{}:{}: key '{}.material':", entry->file().string(), entry->Line("material"), entry->path());
     source.material = FindMaterial(scene, entry->Text("material"), where);
   }
   const Vec2 velocity = entry->Vector("velocity", "[m/s]", Vec2{});

@@ -29,7 +29,8 @@ std::string ReadText(const std::filesystem::path& path) {
     throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
   }
   if (std::filesystem::file_size(path, error) > kLargestFile) {
-    throw Error(fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
+    throw Error(
+        fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
   }
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
@@ -113,7 +114,8 @@ GravityTable ReadGravityTable(TableReader* table) {
   GravityTable law;
   for (const auto& row : table->Rows("table", 3, "[time, gx, gy] [s, m/s^2, m/s^2]", 1)) {
     if (!law.samples.empty() && row[0] <= law.samples.back().time) {
-      table->Refuse("table", fmt::format("has time {} after time {}; give times in ascending order", row[0], law.samples.back().time));
+      table->Refuse("table",
+                    fmt::format("has time {} after time {}; give times in ascending order", row[0], law.samples.back().time));
     }
     law.samples.push_back({row[0], {row[1], row[2]}});
   }
@@ -148,7 +150,8 @@ void ReadMaterials(TableReader* root, Scene* scene) {
     material.restitution = entry.Number("restitution", Bound::kFraction, "", material.restitution);
     entry.Finish();
     for (const Material& other : scene->materials) {
-      if (other.name == material.name) entry.Refuse("name", fmt::format("is '{}' twice; give each material its own", other.name));
+      if (other.name == material.name)
+        entry.Refuse("name", fmt::format("is '{}' twice; give each material its own", other.name));
     }
     scene->materials.push_back(std::move(material));
   }
@@ -190,7 +193,8 @@ void ReadOutput(TableReader* root, Scene* scene) {
   if (table->Has("dir")) {
     const std::filesystem::path dir = table->Text("dir");
     if (dir.is_absolute() || std::find(dir.begin(), dir.end(), "..") != dir.end()) {
-      table->Refuse("dir", fmt::format("is '{}'; give a path without '..' below the current folder, or use --out", dir.string()));
+      table->Refuse("dir",
+                    fmt::format("is '{}'; give a path without '..' below the current folder, or use --out", dir.string()));
     }
     scene->output.dir = dir.string();
   }
@@ -203,7 +207,9 @@ void ReadOutput(TableReader* root, Scene* scene) {
 }
 
 void CheckBodies(const TableReader& root, const Scene& scene) {
-  if (scene.bodies.empty()) root.Refuse("disks", "is missing, and so is every other body; add [[disks]], [[lattices]], [[depositions]] or [[clusters]]");
+  if (scene.bodies.empty())
+    root.Refuse("disks",
+                "is missing, and so is every other body; add [[disks]], [[lattices]], [[depositions]] or [[clusters]]");
   const bool any_free = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                     [](const BodySource& source) { return source.kind == BodyKind::kFree; });
   if (!any_free) root.Refuse("disks", "has no free body in it, nor has any other table; add one that can move");

@@ -30,8 +30,8 @@ Line ReadPoints(TableReader* entry) {
   for (std::size_t leg = 0; leg < line.legs(); ++leg) {
     const double length = Norm(line.end(leg) - line.corners[leg]);
     if (!(length > 0.0 && std::isfinite(length))) {
-      entry->Refuse("points", fmt::format("has twice ({}, {}), one behind the other; give different points", line.corners[leg].x,
-                                          line.corners[leg].y));
+      entry->Refuse("points", fmt::format("has twice ({}, {}), one behind the other; give different points",
+                                          line.corners[leg].x, line.corners[leg].y));
     }
   }
   return line;
@@ -45,7 +45,8 @@ struct Circle {
 
 Circle ReadCircle(TableReader* entry) {
   const std::vector<double> numbers = entry->List("circle", 3, "[x, y, radius] [m]");
-  if (!(numbers[2] > 0.0)) entry->Refuse("circle", fmt::format("has radius {}; give [x, y, radius] with radius > 0 [m]", numbers[2]));
+  if (!(numbers[2] > 0.0))
+    entry->Refuse("circle", fmt::format("has radius {}; give [x, y, radius] with radius > 0 [m]", numbers[2]));
   return {{numbers[0], numbers[1]}, numbers[2]};
 }
 
@@ -54,7 +55,8 @@ Line Polygon(const Circle& circle, std::int64_t corners) {
   line.closed = true;
   for (std::int64_t k = 0; k < corners; ++k) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
-    line.corners.push_back({circle.centre.x + circle.radius * std::cos(angle), circle.centre.y + circle.radius * std::sin(angle)});
+    line.corners.push_back(
+        {circle.centre.x + circle.radius * std::cos(angle), circle.centre.y + circle.radius * std::sin(angle)});
   }
   return line;
 }
@@ -98,9 +100,11 @@ void ReadHalfPlane(TableReader* entry, const Scene& scene, Wall* wall) {
   const Vec2 point = entry->Vector("point", "[m]");
   const Vec2 normal = entry->Vector("normal", "", Vec2{0.0, 1.0});
   const double length = Norm(normal);
-  if (!std::isnormal(length)) entry->Refuse("normal", fmt::format("is [{}, {}]; give a direction of some length", normal.x, normal.y));
+  if (!std::isnormal(length))
+    entry->Refuse("normal", fmt::format("is [{}, {}]; give a direction of some length", normal.x, normal.y));
   if (scene.periodic && normal.x != 0.0) {
-    entry->Refuse("normal", fmt::format("is [{}, {}] in a scene that is periodic in x; give [0, 1] or [0, -1]", normal.x, normal.y));
+    entry->Refuse("normal",
+                  fmt::format("is [{}, {}] in a scene that is periodic in x; give [0, 1] or [0, -1]", normal.x, normal.y));
   }
   const Vec2 unit{normal.x / length, normal.y / length};
   wall->half_planes.push_back({unit, Dot(unit, point)});
@@ -128,7 +132,8 @@ BodySource ReadWall(TableReader* entry, const Scene& scene) {
   if (type != "half_plane") wall.centre = Middle(wall);
   wall.centre = entry->Vector("centre", "[m]", wall.centre);
   if (!wall.one_body && source.velocity.spin != 0.0) {
-    entry->Refuse("spin", "would turn each disk about itself, as one_body = false makes it a body of its own; leave one of them out");
+    entry->Refuse("spin",
+                  "would turn each disk about itself, as one_body = false makes it a body of its own; leave one of them out");
   }
   source.count = wall.one_body ? 1 : static_cast<std::int64_t>(wall.disks.size());
   if (entry->Has("id")) {

@@ -18,7 +18,8 @@ class ReferencePlatform final : public Platform {
 
   void SetVelocity(std::int64_t id, const Twist& velocity) override {
     reference::Body* body = world_.Find(id);
-    if (body == nullptr) throw Error(fmt::format("Body {} cannot get a velocity: the reference platform does not hold it.", id));
+    if (body == nullptr)
+      throw Error(fmt::format("Body {} cannot get a velocity: the reference platform does not hold it.", id));
     body->velocity = velocity;
   }
 

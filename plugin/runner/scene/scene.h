@@ -24,9 +24,9 @@ struct Material {
 };
 
 struct TimeSettings {
-  double dt = 0.0;          ///< [s]
+  double dt = 0.0;  ///< [s]
   std::int64_t steps = 0;
-  double theta = 0.5;       ///< [-]
+  double theta = 0.5;  ///< [-]
 };
 
 /// Bodies are periodic in x: centres live in [origin, origin + length).
@@ -50,7 +50,7 @@ struct DiskFile {
 
 /// A rigid assembly of disks, at one or more places.
 struct Cluster {
-  std::vector<reference::Disk> disks;   ///< in the frame that `at` places
+  std::vector<reference::Disk> disks;  ///< in the frame that `at` places
   std::vector<Pose> at;
   std::optional<double> mass;     ///< [kg] instead of the sum over the disks
   std::optional<double> inertia;  ///< [kg m^2] about the centre of mass, instead of the sum over the disks
@@ -58,7 +58,7 @@ struct Cluster {
 
 /// A prescribed body made of any shapes, or one prescribed body for each of its disks.
 struct Wall {
-  std::vector<reference::Disk> disks;           ///< all shapes in the world frame, at the first step
+  std::vector<reference::Disk> disks;  ///< all shapes in the world frame, at the first step
   std::vector<reference::Segment> segments;
   std::vector<reference::HalfPlane> half_planes;
   Vec2 centre;           ///< [m] about which it spins
@@ -67,7 +67,7 @@ struct Wall {
 
 /// What one entry of the scene file makes: `count` bodies that follow each other.
 struct BodySource {
-  std::string key;   ///< where it stands, such as "disks[2]"
+  std::string key;  ///< where it stands, such as "disks[2]"
   int line = 0;
   std::variant<SingleDisk, DiskFile, Lattice, Deposition, Cluster, Wall> what;
   std::int64_t count = 1;
@@ -94,9 +94,9 @@ struct SolverSettings {
 };
 
 struct OutputSettings {
-  std::string dir;                        ///< empty: the runner's default
-  std::optional<std::int64_t> save_every; ///< steps between two saved states; none: first and last only
-  std::string packing;                    ///< file in the output folder that receives the free disks at the end (packing.h)
+  std::string dir;                         ///< empty: the runner's default
+  std::optional<std::int64_t> save_every;  ///< steps between two saved states; none: first and last only
+  std::string packing;                     ///< file in the output folder that receives the free disks at the end (packing.h)
 };
 
 /// A scene file as read: settings and recipes of bodies, never the bodies themselves.

@@ -13,10 +13,14 @@ namespace {
 
 std::string_view BoundText(Bound bound) {
   switch (bound) {
-    case Bound::kFinite: return "a finite number";
-    case Bound::kPositive: return "a number > 0";
-    case Bound::kNotNegative: return "a number >= 0";
-    case Bound::kFraction: return "a number in [0, 1]";
+    case Bound::kFinite:
+      return "a finite number";
+    case Bound::kPositive:
+      return "a number > 0";
+    case Bound::kNotNegative:
+      return "a number >= 0";
+    case Bound::kFraction:
+      return "a number in [0, 1]";
   }
   return "";
 }
@@ -24,10 +28,14 @@ std::string_view BoundText(Bound bound) {
 bool Fulfils(double value, Bound bound) {
   if (!std::isfinite(value)) return false;
   switch (bound) {
-    case Bound::kFinite: return true;
-    case Bound::kPositive: return value > 0.0;
-    case Bound::kNotNegative: return value >= 0.0;
-    case Bound::kFraction: return value >= 0.0 && value <= 1.0;
+    case Bound::kFinite:
+      return true;
+    case Bound::kPositive:
+      return value > 0.0;
+    case Bound::kNotNegative:
+      return value >= 0.0;
+    case Bound::kFraction:
+      return value >= 0.0 && value <= 1.0;
   }
   return false;
 }
@@ -41,13 +49,20 @@ std::optional<double> NumberOf(const toml::node& node) {
 
 std::string_view TypeName(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::string: return "a text";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
   }
 }
 
@@ -66,7 +81,7 @@ const toml::node& TableReader::Need(std::string_view key, std::string_view what)
   for (const auto& [other, unused] : *table_) {  // it may be there, misspelt
     const bool is_known = std::find(known_.begin(), known_.end(), other.str()) != known_.end();
     if (!is_known && !NearestName(other.str(), wanted).empty()) {
-      Refuse(other.str(), fmt::format("is unknown here; did you mean '{}'", key));
+      Refuse(other.str(), fmt::format("is unknown here; did you mean '{}'?", key));
     }
   }
   Refuse(key, fmt::format("is missing; give {}", what));
@@ -84,10 +99,12 @@ double TableReader::Number(std::string_view key, Bound bound, std::string_view u
   return *value;
 }
 
-std::int64_t TableReader::Integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback, std::int64_t high) {
+std::int64_t TableReader::Integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback,
+                                  std::int64_t high) {
   if (!Has(key) && fallback) return *fallback;
-  const std::string wanted = high == std::numeric_limits<std::int64_t>::max() ? fmt::format("an integer >= {}", low)
-                                                                              : fmt::format("an integer from {} to {}", low, high);
+  const std::string wanted = high == std::numeric_limits<std::int64_t>::max()
+                                 ? fmt::format("an integer >= {}", low)
+                                 : fmt::format("an integer from {} to {}", low, high);
   const toml::node& node = Need(key, wanted);
   if (!node.is_integer()) Refuse(key, fmt::format("is {}; give {}", TypeName(node), wanted));
   const std::int64_t value = node.as_integer()->get();
@@ -111,7 +128,8 @@ std::string TableReader::Text(std::string_view key, std::optional<std::string> f
   return text;
 }
 
-std::string TableReader::Choice(std::string_view key, const std::vector<std::string>& names, std::optional<std::string> fallback) {
+std::string TableReader::Choice(std::string_view key, const std::vector<std::string>& names,
+                                std::optional<std::string> fallback) {
   const std::string text = Text(key, std::move(fallback));
   if (std::find(names.begin(), names.end(), text) == names.end()) {
     Refuse(key, fmt::format("is '{}'; {}", text, Suggestion(text, names, "known values")));
@@ -123,7 +141,8 @@ std::vector<double> TableReader::Numbers(const toml::node& node, std::string_vie
                                          std::string_view columns) const {
   const toml::array* list = node.as_array();
   if (list == nullptr || list->size() != width) {
-    Refuse(key, fmt::format("has {} of {} where {} numbers stand; give {}", TypeName(node), list ? list->size() : 1, width, columns));
+    Refuse(key, fmt::format("has {} of {} where {} numbers stand; give {}", TypeName(node), list ? list->size() : 1, width,
+                            columns));
   }
   std::vector<double> numbers;
   for (const toml::node& element : *list) {
@@ -195,7 +214,7 @@ int TableReader::Line(std::string_view key) const {
 }
 
 void TableReader::Refuse(std::string_view key, std::string_view what) const {
-  throw Error(fmt::format("{}:{}: key '{}' {}.", file_->string(), Line(key), Name(key), what));
+  throw Error(Sentence(fmt::format("{}:{}: key '{}' {}", file_->string(), Line(key), Name(key), what)));
 }
 
 }  // namespace nscdd

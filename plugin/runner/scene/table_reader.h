@@ -36,7 +36,8 @@ class TableReader {
   std::string Choice(std::string_view key, const std::vector<std::string>& names, std::optional<std::string> fallback = {});
   Vec2 Vector(std::string_view key, std::string_view unit, std::optional<Vec2> fallback = {});
   /// A list of lists of `width` numbers, at least `min_rows` of them; `columns` says which, such as "[x, y, radius]".
-  std::vector<std::vector<double>> Rows(std::string_view key, std::size_t width, std::string_view columns, std::size_t min_rows);
+  std::vector<std::vector<double>> Rows(std::string_view key, std::size_t width, std::string_view columns,
+                                        std::size_t min_rows);
   /// A list of `width` numbers.
   std::vector<double> List(std::string_view key, std::size_t width, std::string_view columns);
   /// The table [key]; none if it is not there.
