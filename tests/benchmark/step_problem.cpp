@@ -45,7 +45,7 @@ std::vector<double> Offsets(double dt, StepProblem* p) {
   for (std::size_t c = 0; c < t.size(); ++c) {
     const Twist &va = p->bodies.velocity[t.a[c]], &vb = p->bodies.velocity[t.b[c]];
     const double approach = Dot(t.normal[c], Linear(vb) - Linear(va));
-    offset[c] = NormalOffset(SteppingOptions{}, t.gap[c], approach, t.restitution[c], dt);
+    offset[c] = NormalOffset(SteppingOptions{}, t.gap[c], t.lever_a[c] + t.lever_b[c], approach, t.restitution[c], dt);
     p->scales.velocity = std::max(p->scales.velocity, -approach);
   }
   return offset;

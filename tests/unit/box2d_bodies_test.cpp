@@ -48,7 +48,8 @@ TEST_F(Box2dBodies, AssignedIdsWin) {
   b2Body* b = AddDisk(&world_, {3.0f, 0.0f});
   AddDisk(&world_, {6.0f, 0.0f});
   adapter_.Assign(b, 5);
-  EXPECT_EQ(Read().id, (std::vector<std::int64_t>{5, 6, 7}));
+  adapter_.Assign(AddDisk(&world_, {20.0f, 0.0f}), 2);
+  EXPECT_EQ(Read().id, (std::vector<std::int64_t>{2, 5, 6, 7}));
   EXPECT_EQ(adapter_.Find(5), b);
   EXPECT_EQ(adapter_.Find(6), a);
   EXPECT_TRUE(Contains(Refusal([&] { adapter_.Assign(a, 8); }), "has id 6 already"));

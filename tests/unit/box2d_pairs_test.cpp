@@ -139,11 +139,10 @@ TEST_F(Box2dPairs, CompleteInANarrowPeriod) {
 TEST_F(Box2dPairs, AlertMayChangeBothWays) {
   Fill(&world_, 200, 25.0, 25.0);
   Box2dAdapter adapter(&world_);
-  BodyTable bodies;
-  adapter.ReadBodies(&bodies);
   for (const double alert : {0.1, 3.0, 0.0, 0.5, 20.0, 0.01}) {
-    ContactTable contacts;
-    adapter.DetectContacts({bodies.id, bodies.pose}, alert, &contacts);
+    BodyTable bodies;
+    world_.DestroyBody(world_.GetBodyList());
+    const ContactTable contacts = Detect(&adapter, alert, &bodies);
     EXPECT_EQ(FoundPairs(bodies, contacts), AllPairs(bodies, bodies.pose, alert, 0.0)) << alert;
   }
 }

@@ -303,7 +303,8 @@ void TimeStepper::Impl::ComputeOffsets(double dt) {
       approach += Cross(contacts_.arm_b[c], contacts_.normal[c]) * vb.spin - Cross(contacts_.arm_a[c], contacts_.normal[c]) * va.spin;
     }
     approach_[c] = approach;
-    offset_[c] = NormalOffset(stepping_, contacts_.gap[c], approach, contacts_.restitution[c], dt);
+    const double levers = contacts_.lever_a[c] + contacts_.lever_b[c];
+    offset_[c] = NormalOffset(stepping_, contacts_.gap[c], levers, approach, contacts_.restitution[c], dt);
   }
 }
 
@@ -430,7 +431,7 @@ void TimeStepper::Impl::Summarise(double dt) {
     for (const std::int32_t c : chosen_[e]) {
       const double interpenetration = std::max(0.0, -contact_records_[row++].final_gap);
       parts[e][3] += interpenetration;
-      parts[e][4] += impulse_[c].x * std::max(0.0, -NormalOffset(stepping_, contacts_.gap[c], 0.0, 0.0, dt));
+      parts[e][4] += impulse_[c].x * std::max(0.0, -NormalOffset(stepping_, contacts_.gap[c], 0.0, 0.0, 0.0, dt));
       parts[e][5] = std::max(parts[e][5], interpenetration);
     }
   }
