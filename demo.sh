@@ -25,8 +25,8 @@ mpirun -n 2 "$nscdd" run "$scene" --solver nscdd --subdomains 1x2 --out results/
 cat <<END
 
 Two pictures to look at:
-  $PWD/results/demo_forces.png        force chains at the last step (NSCD)
-  $PWD/results/demo_multiplicity.png  the disks that the two subdomains share (NSCDD)
+  $PWD/results/demo_forces.png        force chains at the last step
+  $PWD/results/demo_multiplicity.png  the disks that the two subdomains share
 Numbers, step by step: results/demo_nscd/steps.csv and results/demo_nscdd/steps.csv
 Next: copy a scene of sample_scenes/, change it, and run  $nscdd run YOUR_SCENE.toml
 END

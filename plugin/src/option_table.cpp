@@ -183,6 +183,10 @@ std::vector<Option> InterfaceOptions() {
           "compatibility", [](SolverSettings& s) -> Compatibility& { return Interface(s).compatibility; },
           {"normal", "full", "sticking"},
           "active contacts in the interface problem: normals; and tangents; and tangents of sticking ones"),
+      Choice<StatusCompatibility>(
+          "status_compatibility",
+          [](SolverSettings& s) -> StatusCompatibility& { return Interface(s).status_compatibility; },
+          {"same", "normal", "sticking"}, "contacts whose velocity enters the right-hand side, if other than in the matrix"),
       Choice<LocalVelocity>(
           "local_velocity", [](SolverSettings& s) -> LocalVelocity& { return Interface(s).local_velocity; }, {"local", "current"},
           "velocity in the search direction: what each local solve left, or that of now"),

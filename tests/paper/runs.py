@@ -74,7 +74,8 @@ class Program:
             command += ["--save-every", save_every]
         for key, value in options.items():
             command += ["--option", f"{key}={value}"]
-        print(f"\r\033[K{self.count:4d}  {name}", end="", file=sys.stderr, flush=True)
+        if sys.stderr.isatty():
+            print(f"\r\033[K{self.count:4d}  {name}", end="", file=sys.stderr, flush=True)
         subprocess.run([str(c) for c in command], env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL)
         return Run(folder)
 

@@ -80,7 +80,7 @@ def main():
                 f"{processor()}, {program.count} runs, {time.monotonic() - start:.0f} s. Choices where the paper is silent: radii in "
                 f"[0.7, 1.3] m, density 1 kg/m^2, g 9.81, dt 0.01 s, QM/16 at 1.666e-4 tested every iteration, grid 1x2.\n\n")
         (program.out / "REPORT.md").write_text(head + "\n".join(sections))
-    print(f"\r\033[K{program.out}/REPORT.md")
+    print(f"\n{program.out}/REPORT.md")
 
 
 if __name__ == "__main__":

@@ -66,6 +66,10 @@ enum class Compatibility {
   kSticking,  ///< normals, and tangents of sticking contacts
 };
 
+/// Columns whose v_E enters the right-hand side (the status stage), where they differ from those of the matrix: tangents outside
+/// are taken at rest, v_t = 0. The paper allows for different operators in the two.
+enum class StatusCompatibility { kSame, kNormal, kSticking };
+
 /// Which v_E enters the search direction (r~ - r) + Lambda (v~ - v) = 0.
 enum class LocalVelocity {
   kLocal,    ///< what each local solve of the last sweep left: -b_n on active normals
@@ -91,6 +95,7 @@ enum class LinearLibrary { kAuto, kEigen, kMumps };
 struct AugmentedInterfaceOptions {
   double lambda = 10.0;  ///< [-] search direction over the reference mass, 0 to 1e8; 0: the plain interface of NSCDD
   Compatibility compatibility = Compatibility::kNormal;
+  StatusCompatibility status_compatibility = StatusCompatibility::kSame;
   LocalVelocity local_velocity = LocalVelocity::kLocal;
   LambdaScale lambda_scale = LambdaScale::kMass;
   double reference_mass = 0.0;  ///< [kg] 0: mean mass of the free bodies

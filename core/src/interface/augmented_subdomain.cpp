@@ -17,6 +17,7 @@ AugmentedSubdomain::AugmentedSubdomain(const SubdomainProblem& problem, const Au
                                        double reference_mass, std::vector<double> restoring)
     : problem_(problem),
       compatibility_(options.compatibility),
+      status_compatibility_(options.status_compatibility),
       local_velocity_(options.local_velocity),
       dofs_(DofsFor(problem.model, options.compatibility)),
       node_of_copy_(problem.body_count(), -1),
@@ -145,6 +146,9 @@ double AugmentedSubdomain::PrescribedPart(const Column& c, const SubdomainState&
 /// v_E of a column, by the option local_velocity, with the restoring speed.
 double AugmentedSubdomain::OldVelocity(const Column& c, const SubdomainState& state, std::span<const double> left) const {
   const double restoring = c.is_normal && !restoring_.empty() ? restoring_[c.contact] : 0.0;
+  const bool at_rest = !c.is_normal && (status_compatibility_ == StatusCompatibility::kNormal ||
+                                        (status_compatibility_ == StatusCompatibility::kSticking && !c.is_known));
+  if (at_rest) return 0.0;
   if (local_velocity_ == LocalVelocity::kLocal) return restoring + (c.is_known ? c.velocity_known : left[c.contact]);
   const int stride = Dofs(problem_.model);
   double v = restoring;

@@ -70,6 +70,7 @@ class AugmentedSubdomain {
 
   const SubdomainProblem& problem_;
   Compatibility compatibility_;
+  StatusCompatibility status_compatibility_;
   LocalVelocity local_velocity_;
   int dofs_;
   std::vector<std::int32_t> node_of_copy_, copy_of_node_;

@@ -1,0 +1,102 @@
+// Eigen and MUMPS solve the same augmented interface, MUMPS on one rank (MPI_COMM_SELF) and over all of them; factorisations are
+// kept while pattern and numbers stay.
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "linear/kept_solver.h"
+#include "nscdd/mpi_communicator.h"
+
+namespace nscdd {
+namespace {
+
+/// Lower triangle of M + lambda G G^T on a ring of n bodies with 2 dofs, the contacts in random directions.
+struct Matrix {
+  int n = 0;
+  std::vector<std::int32_t> row, column;
+  std::vector<double> values;
+};
+
+Matrix RingMatrix(int bodies, double lambda, int part, int parts) {
+  Matrix m;
+  m.n = 2 * bodies;
+  const auto add = [&](int i, int j, double value) {
+    m.row.push_back(std::max(i, j));
+    m.column.push_back(std::min(i, j));
+    m.values.push_back(value);
+  };
+  for (int b = part; b < bodies; b += parts) {
+    for (const int neighbour : {1, 7}) {
+      const int other = (b + neighbour) % bodies;
+      const double g[4] = {std::cos(b + neighbour), std::sin(b + neighbour), -std::cos(b + neighbour), -std::sin(b + neighbour)};
+      const int at[4] = {2 * b, 2 * b + 1, 2 * other, 2 * other + 1};
+      for (int p = 0; p < 4; ++p) {
+        for (int q = 0; q <= p; ++q) add(at[p], at[q], lambda * g[p] * g[q]);
+      }
+    }
+    add(2 * b, 2 * b, 1.0 + 0.1 * (b % 5));
+    add(2 * b + 1, 2 * b + 1, 1.0 + 0.1 * (b % 5));
+  }
+  return m;
+}
+
+std::vector<double> Solve(KeptSolver* solver, const Matrix& m) {
+  std::vector<double> x(m.n);
+  for (int i = 0; i < m.n; ++i) x[i] = std::sin(1.0 + i);
+  solver->Set(m.n, m.row, m.column, m.values);
+  solver->Solve(x);
+  return x;
+}
+
+double Difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double difference = 0.0, norm = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference = std::max(difference, std::abs(a[i] - b[i]));
+    norm = std::max(norm, std::abs(a[i]));
+  }
+  return difference / norm;
+}
+
+int Check(Communicator* communicator) {
+  const int rank = communicator->rank(), ranks = communicator->size();
+  KeptSolver eigen(MakeLocalSolver(LinearLibrary::kEigen), communicator);
+  KeptSolver mumps(MakeLocalSolver(LinearLibrary::kMumps), communicator);
+  KeptSolver shared(MakeSharedSolver(LinearLibrary::kMumps, communicator), communicator);
+  int failures = 0;
+  for (const double lambda : {0.1, 10.0, 1e4, 1e6}) {
+    const Matrix whole = RingMatrix(300, lambda, 0, 1), mine = RingMatrix(300, lambda, rank, ranks);
+    const std::vector<double> expected = Solve(&eigen, whole);
+    const double local = Difference(expected, Solve(&mumps, whole));
+    const double distributed = Difference(expected, Solve(&shared, shared.is_distributed() ? mine : whole));
+    const bool ok = local < 1e-10 && distributed < 1e-9;
+    failures += !ok;
+    if (rank == 0) fmt::print("{} lambda {:g}: MUMPS differs by {:.1e}, over {} ranks by {:.1e}\n", ok ? "ok    " : "FAILED", lambda, local, ranks, distributed);
+  }
+  // The pattern was the same all along, the numbers of the last two solves too.
+  for (KeptSolver* solver : {&eigen, &mumps, &shared}) {
+    const Matrix again = RingMatrix(300, 1e6, solver->is_distributed() ? rank : 0, solver->is_distributed() ? ranks : 1);
+    Solve(solver, again);
+    failures += solver->counters().analyses != 1 || solver->counters().factorisations != 4;
+  }
+  return failures;
+}
+
+}  // namespace
+}  // namespace nscdd
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int failures = 0;
+  {
+    nscdd::MpiCommunicator communicator(MPI_COMM_WORLD);
+    failures = nscdd::Check(&communicator);
+  }
+  int all = 0;
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return all == 0 ? 0 : 1;
+}
