@@ -56,6 +56,8 @@ void HostWorld::ForgetMovesIfMany() {
 }
 
 void HostWorld::RefreshContacts() {
+  // Setting a transform, even the same, is what makes the next step look for pairs before it solves.
+  if (b2Body* any = world_->GetBodyList()) any->SetTransform(any->GetPosition(), any->GetAngle());
   for (b2Body* body = world_->GetBodyList(); body != nullptr; body = body->GetNext()) {
     for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) fixture->Refilter();
   }
