@@ -67,7 +67,8 @@ void MeasureRun(const Entry& entry, const Scene& scene, std::int64_t steps, Reco
 }
 
 void PrintCost(const std::vector<Entry>& entries, const std::vector<Record>& records) {
-  fmt::print("\n| solver | ms per step, median | least .. most | sweeps per step | interpenetration, mean [m] | largest [m] |\n");
+  fmt::print(
+      "\n| solver | ms per step, median | least .. most | sweeps per step | interpenetration, mean [m] | largest [m] |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Record& r = records[i];
@@ -78,13 +79,15 @@ void PrintCost(const std::vector<Entry>& entries, const std::vector<Record>& rec
 }
 
 void PrintResiduals(const std::vector<Entry>& entries, const std::vector<Record>& records) {
-  fmt::print("\n| solver | nat, median | worst step | nat_max, median | worst step | nat, reported contacts | nat_max, reported contacts | "
-             "imbalance | our candidates | reported | r_n > 0 | unmatched |\n");
+  fmt::print(
+      "\n| solver | nat, median | worst step | nat_max, median | worst step | nat, reported contacts | nat_max, reported "
+      "contacts | "
+      "imbalance | our candidates | reported | r_n > 0 | unmatched |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Record& r = records[i];
-    fmt::print("| {} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.0e} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n", entries[i].name,
-               Median(r.nat), Max(r.nat), Median(r.nat_max), Max(r.nat_max), Median(r.nat_on_reported),
+    fmt::print("| {} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.0e} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n",
+               entries[i].name, Median(r.nat), Max(r.nat), Median(r.nat_max), Max(r.nat_max), Median(r.nat_on_reported),
                Median(r.nat_max_on_reported), Median(r.imbalance), Mean(r.candidates), Mean(r.reported), Mean(r.active),
                Mean(r.unmatched));
   }

@@ -59,7 +59,8 @@ void BarePass(const SubdomainProblem& problem, SubdomainState* state) {
   }
 }
 
-/// Some passes from the same state each time, so that every iteration meets the same active set and no sweep is at a fixed point.
+/// Some passes from the same state each time, so that every iteration meets the same active set and no sweep is at a fixed
+/// point.
 void Measure(::benchmark::State& run, LazyPacking* lazy, const Pass& pass) {
   const DensePacking& packing = lazy->Get();
   const SubdomainProblem& problem = packing.problem;
@@ -89,16 +90,17 @@ void CheckBareLoop(LazyPacking* lazy) {
     difference = std::max(difference, std::abs(bare.velocity[i] - product.velocity[i]));
   }
   if (!(difference <= 1e-12 * largest)) {
-    throw Error(fmt::format("after one sweep the bare loop and the product differ by {} m/s; mend bare_sweep.cpp.", difference));
+    throw Error(
+        fmt::format("after one sweep the bare loop and the product differ by {} m/s; mend bare_sweep.cpp.", difference));
   }
 }
 
 void Register(const std::string& law, double friction, int disks) {
   const auto packing = std::make_shared<LazyPacking>(disks, friction);
   const auto add = [&](const char* what, const Pass& pass) {
-    ::benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", law, disks, what).c_str(),
-                                   [packing, pass](::benchmark::State& run) { Measure(run, packing.get(), pass); })
-        ->UseManualTime();
+    ::benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", law, disks, what).c_str(), [packing, pass](::benchmark::State& run) {
+      Measure(run, packing.get(), pass);
+    })->UseManualTime();
   };
   add("product", ProductPass);
   add("bare", BarePass);

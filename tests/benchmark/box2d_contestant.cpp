@@ -17,8 +17,9 @@ namespace {
 
 /// Sums of what PostSolve reports in a step, by contact key.
 ///
-/// Box2D's normal points from its fixture A to its B, its tangent is b2Cross(normal, 1) = (n_y, -n_x), and its impulses act on B: the
-/// conventions of ContactTable. Where its A is our B, normal, tangent and the body acted on all change sign, so (r_n, r_t) does not.
+/// Box2D's normal points from its fixture A to its B, its tangent is b2Cross(normal, 1) = (n_y, -n_x), and its impulses act on
+/// B: the conventions of ContactTable. Where its A is our B, normal, tangent and the body acted on all change sign, so (r_n,
+/// r_t) does not.
 class ImpulseListener final : public b2ContactListener {
  public:
   explicit ImpulseListener(std::unordered_map<const b2Fixture*, std::pair<std::int64_t, std::int32_t>> shapes)
@@ -49,7 +50,8 @@ class Box2dContestant final : public Contestant {
       : scene_(scene), iterations_(iterations), platform_(MakePlatform("box2d", scene)) {
     const double radius = MeanGrainRadius(scene);
     if (radius < 0.1 || radius > 10.0 || scene.periodic) {
-      throw Error("benchmark_step compares scenes without period, with grains of 0.1 to 10 m: one Box2D unit is then one metre.");
+      throw Error(
+          "benchmark_step compares scenes without period, with grains of 0.1 to 10 m: one Box2D unit is then one metre.");
     }
     ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) {
       platform_->Add(body);

@@ -13,8 +13,8 @@ namespace nscdd::benchmark {
 
 /// One step's answer on our contacts.
 struct MeasuredStep {
-  AnswerResiduals residuals;           ///< on all our candidates; where the contestant reported nothing the impulse is zero
-  AnswerResiduals on_reported;         ///< on those only for which it reported something
+  AnswerResiduals residuals;    ///< on all our candidates; where the contestant reported nothing the impulse is zero
+  AnswerResiduals on_reported;  ///< on those only for which it reported something
   std::int64_t sweeps = 0;      ///< passes over the contacts
   std::int64_t candidates = 0;  ///< our contacts: gap at q_m <= alert
   std::int64_t reported = 0;    ///< contacts that the contestant reported, impulse zero included

@@ -27,7 +27,8 @@ reference::World MakeWorld(int disks, double friction) {
   world.Add(box);
   for (int k = 0; k < disks; ++k) {
     const int row = k / columns, column = k % columns;
-    const Vec2 centre{kSpacing * (column + (row % 2 ? 1.0 : 0.5)) + uniform(kJitter), 0.99 + row_height * row + uniform(kJitter)};
+    const Vec2 centre{kSpacing * (column + (row % 2 ? 1.0 : 0.5)) + uniform(kJitter),
+                      0.99 + row_height * row + uniform(kJitter)};
     reference::Body disk = reference::MakeDisk(k + 1, centre, 1.0 + uniform(kRadiusSpread), 1.0);
     disk.friction = friction;
     world.Add(disk);

@@ -10,8 +10,8 @@ struct DensePacking {
   double active = 0.0;   ///< share of the contacts with r_n > 0
 };
 
-/// `disks` disks on a jittered hexagonal lattice in an open box under gravity, just tighter than touching, detected by the reference
-/// adapter. Deterministic.
+/// `disks` disks on a jittered hexagonal lattice in an open box under gravity, just tighter than touching, detected by the
+/// reference adapter. Deterministic.
 DensePacking MakeDensePacking(int disks, double friction);
 
 }  // namespace nscdd::benchmark

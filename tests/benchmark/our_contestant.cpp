@@ -8,8 +8,8 @@
 #include "nscdd/communicator.h"
 #include "nscdd/error.h"
 #include "nscdd/time_stepper.h"
-#include "scene/gravity.h"
 #include "scene/grain_size.h"
+#include "scene/gravity.h"
 #include "scene/platform.h"
 #include "stepping/impulse_cache.h"
 
@@ -75,8 +75,9 @@ class OurContestant final : public Contestant {
   /// The yardstick, put to an answer whose residual the core has measured itself.
   static void CheckAgainstReport(double measured, double reported, std::int64_t step) {
     if (std::abs(measured - reported) <= 1e-6 * reported + 1e-12) return;
-    throw Error(fmt::format("step {}: nat is {} here and {} in the stepper's report; step_problem.cpp must measure what the core measures.",
-                            step, measured, reported));
+    throw Error(fmt::format(
+        "step {}: nat is {} here and {} in the stepper's report; step_problem.cpp must measure what the core measures.", step,
+        measured, reported));
   }
 
   const Scene& scene_;

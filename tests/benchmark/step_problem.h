@@ -11,10 +11,11 @@
 
 namespace nscdd::benchmark {
 
-/// The contact problem of one step (theta = 1/2, gap law, one subdomain), as the TimeStepper makes it, for answers that are not its own.
+/// The contact problem of one step (theta = 1/2, gap law, one subdomain), as the TimeStepper makes it, for answers that are not
+/// its own.
 struct StepProblem {
-  BodyTable bodies;        ///< at the beginning of the step, ascending ids
-  ContactTable contacts;   ///< at q_m
+  BodyTable bodies;                     ///< at the beginning of the step, ascending ids
+  ContactTable contacts;                ///< at q_m
   std::vector<double> inverse_mass;     ///< [1/kg] by row of bodies; 0: prescribed
   std::vector<double> inverse_inertia;  ///< [1/(kg m^2)]
   std::vector<Twist> free_velocity;     ///< V_f

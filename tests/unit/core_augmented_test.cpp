@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                     GoldenUpdate{"enriched_F_L10_Gn_vcurrent", 10.0, Compatibility::kNormal, LocalVelocity::kCurrent},
                     GoldenUpdate{"enriched_F_L10_Gfull_vlocal", 10.0, Compatibility::kFull, LocalVelocity::kLocal},
                     GoldenUpdate{"enriched_F_L10_Gfull_vcurrent", 10.0, Compatibility::kFull, LocalVelocity::kCurrent}),
-    [](const auto& info) { return std::string(info.param.key); });
+    [](const auto& update) { return std::string(update.param.key); });
 
 // The conjugate gradient on X_lambda and the assembled primal problem are the same update; impulses sum to zero per body.
 TEST(AugmentedInterface, ConjugateGradientIsTheDirectSolve) {
