@@ -51,8 +51,10 @@ void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const s
                          const PartitionedState& state) {
   using Part = ReductionPart<9, 3>;
   std::vector<Part> parts(problem_.subdomains.size());
+  worst_ = {};
   for (std::size_t e = 0; e < parts.size(); ++e) {
     const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
+    if (n.worst_contact >= 0 && Exceeds(n.worst, worst_.worst)) worst_ = n;
     const SweepStatistics& s = statistics[e];
     const JumpPart jump = jumps.empty() ? JumpPart{} : jumps[e];
     parts[e] = {n.sum_e2,   n.sum_r2,         static_cast<double>(s.active), s.sum_dv2, s.sum_dv2_r2, s.sum_rwr, s.sum_wr2,
@@ -213,20 +215,15 @@ void Monitor::CountContacts(const PartitionedState& state) {
   report_.max_multiplicity = report_.contacts == 0 ? 0 : std::max(1, static_cast<int>(t[6]));
 }
 
-/// Names the contact with the largest nat_max; of equal ones that of the lowest subdomain.
-void Monitor::FindWorst(const PartitionedState& state) {
-  NaturalParts worst;
-  for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
-    const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
-    if (n.worst_contact >= 0 && Exceeds(n.worst, worst.worst)) worst = n;
-  }
+/// Names the contact with the largest nat_max at the last measurement; of equal ones that of the lowest subdomain.
+void Monitor::FindWorst() {
   std::array<double, 6> mine{-1.0, 0, 0, 0, 0, 0};
-  if (worst.worst_contact >= 0) {
+  if (worst_.worst_contact >= 0) {
     const ContactTable& t = *problem_.contacts;
-    const auto c = static_cast<std::size_t>(worst.worst_contact);
+    const auto c = static_cast<std::size_t>(worst_.worst_contact);
     const auto id = [&](std::int32_t row) { return std::bit_cast<double>((*problem_.body_id)[row]); };  // any number fits
     const auto shape = [&](const std::vector<std::int32_t>& column) { return column.empty() ? 0.0 : double(column[c]); };
-    mine = {worst.worst, id(t.a[c]), id(t.b[c]), shape(t.shape_a), shape(t.shape_b), shape(t.image)};
+    mine = {worst_.worst, id(t.a[c]), id(t.b[c]), shape(t.shape_a), shape(t.shape_b), shape(t.image)};
   }
   const std::vector<double> all = communicator_->AllGather(mine);
   const double* best = all.data();
@@ -242,7 +239,7 @@ void Monitor::FindWorst(const PartitionedState& state) {
 SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedState* state) {
   report_.iterations = iterations;
   report_.sweeps = sweeps;
-  FindWorst(*state);
+  FindWorst();
   if (has_diverged()) RestoreBest(state);
   CountContacts(*state);
   return std::move(report_);

@@ -43,12 +43,13 @@ class Monitor {
   void KeepBest(const PartitionedState& state);
   void RestoreBest(PartitionedState* state);
   void CountContacts(const PartitionedState& state);
-  void FindWorst(const PartitionedState& state);
+  void FindWorst();
 
   const PartitionedProblem& problem_;
   StoppingOptions options_;
   Communicator* communicator_;
   SolveReport report_;
+  NaturalParts worst_;   // of this rank's subdomains
   double first_ = -1.0;  // measure at the first test
   double best_ = 0.0;
   int best_iteration_ = 0;

@@ -287,17 +287,18 @@ void Distribution::Move(const std::vector<Pose>& detection, const Grid& grid, co
 }
 
 Sharing Distribution::Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const {
-  if (communicator_->size() == 1) return MakeSharing(population_.size(), std::move(pairs));
+  Sharing mine = MakeSharing(population_.size(), pairs);
+  if (communicator_->size() == 1) return mine;
   const int me = communicator_->rank();
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   Parcels parcels;
-  for (const auto& [row, subdomain] : pairs) {
+  for (std::size_t row = 0; row < population_.size(); ++row) {
     for (const int rank : population_.holders[row]) {
       if (rank == me) continue;
-      ByteWriter out(&parcels[rank]);
-      out.Put(population_.bodies.id[row]);
-      out.Put(subdomain);
+      for (const std::int32_t subdomain : mine.Of(row)) {
+        ByteWriter out(&parcels[rank]);
+        out.Put(population_.bodies.id[row]);
+        out.Put(subdomain);
+      }
     }
   }
   std::vector<Message> outgoing;
@@ -310,7 +311,7 @@ Sharing Distribution::Share(std::vector<std::pair<std::int32_t, std::int32_t>> p
       pairs.emplace_back(static_cast<std::int32_t>(population_.RowOf(id)), subdomain);
     }
   }
-  return MakeSharing(population_.size(), std::move(pairs));
+  return MakeSharing(population_.size(), pairs);
 }
 
 }  // namespace nscdd

@@ -20,6 +20,6 @@ struct Sharing {
 };
 
 /// From pairs (row, subdomain) in any order, repeated or not.
-Sharing MakeSharing(std::size_t rows, std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
+Sharing MakeSharing(std::size_t rows, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
 
 }  // namespace nscdd

@@ -78,7 +78,7 @@ void CheckContacts(const ContactTable& t, const BodyTable& bodies, double alert,
     if (c > 0 && key == previous) refuse("is there twice with the same shapes and image");
     if (c > 0 && key < previous) refuse("is out of order; contacts must be sorted by key");
     if (bodies.kind[a] != BodyKind::kFree && bodies.kind[b] != BodyKind::kFree) refuse("joins two prescribed bodies");
-    if (!(std::abs(Norm(t.normal[c]) - 1.0) < 1e-9)) refuse("has a normal that is not a unit vector");
+    if (!(std::abs(Dot(t.normal[c], t.normal[c]) - 1.0) < 2e-9)) refuse("has a normal that is not a unit vector");
     if (!std::isfinite(t.gap[c]) || t.gap[c] > alert + slack) refuse("has a gap that is not finite or above the alert distance");
     if (!std::isfinite(t.lever_a[c]) || !std::isfinite(t.lever_b[c])) refuse("has a lever that is not finite");
     if (!std::isfinite(t.site[c].x) || !std::isfinite(t.site[c].y)) refuse("has a site that is not finite");

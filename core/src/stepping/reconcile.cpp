@@ -16,13 +16,16 @@ struct CopyRecord {
   double velocity[3];
 };
 
-std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state, const Sharing& sharing) {
+/// Copies whose owner does not know V yet: all but those of its own bodies that no other subdomain touches.
+std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state, const Distribution& distribution,
+                                 const Sharing& sharing) {
   const int dofs = Dofs(problem.model);
   std::vector<CopyRecord> records;
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
     const SubdomainProblem& p = problem.subdomains[e];
     for (std::size_t b = 0; b < p.body_count(); ++b) {
-      if (sharing.Multiplicity(p.body[b]) == 0) continue;  // prescribed
+      const int m = sharing.Multiplicity(p.body[b]);
+      if (m == 0 || (m == 1 && distribution.Owns(p.body[b]))) continue;  // 0: prescribed
       CopyRecord record{(*problem.body_id)[p.body[b]], p.subdomain, {}};
       std::copy_n(&state.subdomains[e].velocity[dofs * b], dofs, record.velocity);
       records.push_back(record);
@@ -93,7 +96,8 @@ void Exchange(const Distribution& distribution, Communicator* communicator, std:
   }
 }
 
-/// V := mean over the copies in order of their subdomains, as the first plus the mean of the differences: exact when all agree.
+/// V := mean over the copies in order of their subdomains, as the first plus the mean of the differences: exact when all agree. One
+/// copy's velocity is taken as it is, here as on the rank of a body's owner (adding 0 would change the sign of -0).
 void AverageCopies(std::vector<CopyRecord>* copies, const Population& population, int dofs, std::vector<Twist>* velocity) {
   std::sort(copies->begin(), copies->end(), [](const CopyRecord& a, const CopyRecord& b) {
     return std::pair(a.body, a.subdomain) < std::pair(b.body, b.subdomain);
@@ -106,6 +110,10 @@ void AverageCopies(std::vector<CopyRecord>* copies, const Population& population
     }
     const double count = static_cast<double>(last - first);
     Twist& v = (*velocity)[population.RowOf(head.body)];
+    if (last - first == 1) {
+      v = {head.velocity[0], head.velocity[1], dofs == 3 ? head.velocity[2] : v.spin};
+      continue;
+    }
     v.vx = head.velocity[0] + difference[0] / count;
     v.vy = head.velocity[1] + difference[1] / count;
     if (dofs == 3) v.spin = head.velocity[2] + difference[2] / count;
@@ -118,7 +126,7 @@ void Reconcile(const PartitionedProblem& problem, const PartitionedState& state,
                const Sharing& sharing, const std::vector<std::int32_t>& solved, const std::vector<Vec2>& impulse,
                Communicator* communicator, std::vector<Twist>* velocity, ImpulseCache* cache) {
   *cache = {};
-  std::vector<CopyRecord> copies = CopiesOf(problem, state, sharing);
+  std::vector<CopyRecord> copies = CopiesOf(problem, state, distribution, sharing);
   AddInterfaceImpulses(problem, state, cache);
   AddContactImpulses(*problem.contacts, distribution.population().bodies, solved, impulse, cache);
   if (communicator->size() > 1) Exchange(distribution, communicator, &copies, cache);

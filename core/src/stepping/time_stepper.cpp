@@ -457,6 +457,9 @@ void TimeStepper::Impl::CommitStep() {
   std::vector<std::int64_t> id;
   std::vector<Pose> pose;
   std::vector<Twist> velocity;
+  id.reserve(body_records_.size());
+  pose.reserve(body_records_.size());
+  velocity.reserve(body_records_.size());
   for (const BodyRecord& body : body_records_) {
     id.push_back(body.id);
     pose.push_back(body.pose);
@@ -464,6 +467,8 @@ void TimeStepper::Impl::CommitStep() {
   }
   std::vector<ContactKey> key;
   std::vector<Vec2> impulse;
+  key.reserve(contact_records_.size());
+  impulse.reserve(contact_records_.size());
   for (const ContactRecord& contact : contact_records_) {
     key.push_back(contact.key);
     impulse.push_back(contact.impulse);
