@@ -19,7 +19,8 @@ Sharing MakeSharing(std::size_t rows, const std::vector<std::pair<std::int32_t, 
     const auto first = sharing.subdomain.begin() + sharing.begin[row], last = sharing.subdomain.begin() + next[row];
     sharing.begin[row] = static_cast<std::int32_t>(out - sharing.subdomain.begin());
     std::sort(first, last);
-    out = std::unique_copy(first, last, out);
+    const auto end = std::unique(first, last);
+    for (auto e = first; e != end; ++e) *out++ = *e;
   }
   sharing.begin[rows] = static_cast<std::int32_t>(out - sharing.subdomain.begin());
   sharing.subdomain.erase(out, sharing.subdomain.end());

@@ -122,7 +122,7 @@ void Assemble(const ContactProblem& p, Assembly* out) {
       if (out->inverse_mass[body] > 0.0) pairs.emplace_back(body, e);
     }
   }
-  out->sharing = MakeSharing(p.mass.size(), std::move(pairs));
+  out->sharing = MakeSharing(p.mass.size(), pairs);
   const ProblemTables tables{out->inverse_mass, out->inverse_inertia, p.free_velocity, &p.contacts, p.offset, &out->sharing};
   PartitionedProblem& problem = out->problem;
   problem.model = RequiredModel(tables);
