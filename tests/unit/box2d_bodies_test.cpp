@@ -186,6 +186,16 @@ TEST_F(Box2dBodies, ExactMassAndShapesAreUsed) {
   EXPECT_EQ(bodies.mass[0], 0.7) << "the mass was not edited";
 }
 
+TEST_F(Box2dBodies, ExactPolygonMayBeginWithAnyVertex) {
+  b2Body* body = AddBody(&world_, b2_staticBody, {0.0f, 0.0f});
+  b2PolygonShape shape;
+  shape.SetAsBox(0.3f, 0.3f);
+  body->CreateFixture(&shape, 0.0f);
+  adapter_.Assign(body, 0, {{}, {}, {}, {}, {{PolygonGeometry{{{0.3, 0.3}, {-0.3, 0.3}, {-0.3, -0.3}, {0.3, -0.3}}}, {}, {}}}});
+  AddDisk(&world_, {0.0f, 1.5f});
+  EXPECT_EQ(Detect(&adapter_, 1.0).gap[0], 1.2 - 1.0) << "not the float's 0.3";
+}
+
 TEST(Box2dUnits, MetresPerUnitScalesAllButMass) {
   b2World world({0.0f, -1000.0f});
   Box2dOptions options;

@@ -147,6 +147,17 @@ TEST_F(Box2dPairs, AlertMayChangeBothWays) {
   }
 }
 
+TEST_F(Box2dPairs, DestroyedPairIsForgottenWhenTheAlertShrinks) {
+  b2Body* one = AddDisk(&world_, {3.0f, 3.0f});
+  b2Body* other = AddDisk(&world_, {3.5f, 3.0f});
+  for (int i = 0; i < 5; ++i) AddDisk(&world_, {10.0f * static_cast<float>(i), 0.0f});
+  Box2dAdapter adapter(&world_);
+  EXPECT_EQ(Detect(&adapter, 100.0).size(), 21u);
+  world_.DestroyBody(one);
+  world_.DestroyBody(other);
+  EXPECT_EQ(Detect(&adapter, 0.01).size(), 0u);
+}
+
 TEST_F(Box2dPairs, HostIsUnchangedByDetection) {
   b2Body* body = AddDisk(&world_, {0.0f, 0.0f});
   Box2dAdapter adapter(&world_);
