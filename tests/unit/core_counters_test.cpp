@@ -104,6 +104,17 @@ TEST(Counters, OneSubdomainHasNoInterface) {
   EXPECT_EQ(sample.problem.interface.slot_count(), 0);
 }
 
+TEST(Sharing, PairsInAnyOrderRepeatedOrNot) {
+  const Sharing s = MakeSharing(4, {{2, 7}, {0, 3}, {2, 1}, {2, 7}, {0, 3}, {3, 0}, {2, 4}});
+  const auto of = [&](std::size_t row) { return std::vector<std::int32_t>(s.Of(row).begin(), s.Of(row).end()); };
+  EXPECT_EQ(of(0), std::vector<std::int32_t>{3});
+  EXPECT_TRUE(of(1).empty());
+  EXPECT_EQ(of(2), (std::vector<std::int32_t>{1, 4, 7}));
+  EXPECT_EQ(of(3), std::vector<std::int32_t>{0});
+  EXPECT_EQ(s.Multiplicity(2), 3);
+  EXPECT_TRUE(MakeSharing(0, {}).subdomain.empty());
+}
+
 // The wall touches every subdomain and is in none of the interface's lists.
 TEST(Interface, FixedBodiesAreNeverOnIt) {
   const ContactProblem p = test::SampleProblem({.subdomains = 5});

@@ -8,6 +8,7 @@
 #include "algorithms/monitor.h"
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"
+#include "parallel/ordered_reduction.h"
 #include "problem/initial_state.h"
 #include "sample_problem.h"
 
@@ -162,6 +163,14 @@ TEST(TestEvery, DoesNotChangeTheIterates) {
     EXPECT_EQ(often.impulse[c].x, rarely.impulse[c].x);
     EXPECT_EQ(often.impulse[c].y, rarely.impulse[c].y);
   }
+}
+
+TEST(NotANumber, SurvivesTheReduction) {
+  SerialCommunicator serial;
+  const std::vector<ReductionPart<1, 1>> parts{{1.0, 2.0}, {kNan, kNan}, {1.0, 3.0}};
+  const auto total = ReduceInOrder<1, 1>(parts, &serial);
+  EXPECT_TRUE(std::isnan(total[0]));
+  EXPECT_TRUE(std::isnan(total[1]));
 }
 
 // A single contact that moves is the worst one.

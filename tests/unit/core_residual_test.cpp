@@ -11,7 +11,6 @@
 #include "nlgs/residual.h"
 #include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
-#include "parallel/ordered_reduction.h"
 #include "sample_problem.h"
 
 namespace nscdd {
@@ -295,14 +294,6 @@ TEST(NotANumber, ReachesEveryMeasureAndNamesTheContact) {
       }
     }
   }
-}
-
-TEST(NotANumber, SurvivesTheReduction) {
-  SerialCommunicator serial;
-  const std::vector<ReductionPart<1, 1>> parts{{1.0, 2.0}, {kNan, kNan}, {1.0, 3.0}};
-  const auto total = ReduceInOrder<1, 1>(parts, &serial);
-  EXPECT_TRUE(std::isnan(total[0]));
-  EXPECT_TRUE(std::isnan(total[1]));
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST(Periodic, ContactsAcrossTheEnds) {
       for (const ContactRecord& c : host.stepper().contacts()) {
         met = met || c.impulse.x > 0.0;
         EXPECT_NE(c.key.image, 0);
+        EXPECT_LT(std::abs(c.final_gap), 0.06);  // that of the image
         EXPECT_EQ(std::abs(c.normal.x), 1.0);
       }
       EXPECT_GE(left.pose.x, -2.0);

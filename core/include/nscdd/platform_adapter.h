@@ -41,7 +41,8 @@ struct AdapterDescription {
 class BodyTransport {
  public:
   virtual ~BodyTransport() = default;
-  /// Appends to `bytes` all that Insert() on another rank needs to build the body, its shapes and its id.
+  /// Appends to `bytes` all that Insert() on another rank needs to build the body: its id, shapes, state, loads and whatever else the
+  /// host's user may have set. A body that changes its owner is packed anew, and replaces the ghost that the new owner's host had.
   virtual void Pack(std::int64_t id, std::vector<std::byte>* bytes) = 0;
   /// Builds the body from the bytes of Pack(). Throws Error if the id is there already or the bytes are not its own.
   virtual void Insert(std::int64_t id, std::span<const std::byte> bytes) = 0;

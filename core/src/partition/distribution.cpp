@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "nscdd/error.h"
@@ -15,55 +14,6 @@ namespace {
 
 enum class Record : std::uint8_t { kBody, kRemoval };
 
-template <class T>
-void Permute(const std::vector<std::size_t>& order, std::vector<T>* column) {
-  std::vector<T> sorted;
-  sorted.reserve(order.size());
-  for (const std::size_t i : order) sorted.push_back(std::move((*column)[i]));
-  *column = std::move(sorted);
-}
-
-/// Calls f on each column of the table.
-template <class Table, class Function>
-void ForEachColumn(Table& t, Function&& f) {
-  f(t.id);
-  f(t.kind);
-  f(t.mass);
-  f(t.inertia);
-  f(t.radius);
-  f(t.bounding_radius);
-  f(t.pose);
-  f(t.velocity);
-  f(t.force);
-}
-
-void SortById(Population* p) {
-  const auto& id = p->bodies.id;
-  if (std::is_sorted(id.begin(), id.end())) return;
-  std::vector<std::size_t> order(id.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
-  ForEachColumn(p->bodies, [&](auto& column) { Permute(order, &column); });
-  Permute(order, &p->owner);
-  Permute(order, &p->holders);
-}
-
-/// Drops the rows where keep is 0.
-void Filter(const std::vector<char>& keep, Population* p) {
-  const auto filter = [&](auto& column) {
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < keep.size(); ++i) {
-      if (!keep[i]) continue;
-      if (out != i) column[out] = std::move(column[i]);
-      ++out;
-    }
-    column.resize(out);
-  };
-  ForEachColumn(p->bodies, filter);
-  filter(p->owner);
-  filter(p->holders);
-}
-
 [[noreturn]] void RefuseTwice(std::int64_t id) {
   throw Error(fmt::format("body {} is in the hosts of several ranks; ids are unique and every new body is in exactly one host, the "
                           "solver makes the ghosts", id));
@@ -72,11 +22,6 @@ void Filter(const std::vector<char>& keep, Population* p) {
 bool Contains(const std::vector<int>& ranks, int rank) { return std::binary_search(ranks.begin(), ranks.end(), rank); }
 
 }  // namespace
-
-std::ptrdiff_t Population::RowOf(std::int64_t id) const {
-  const auto at = std::lower_bound(bodies.id.begin(), bodies.id.end(), id);
-  return at != bodies.id.end() && *at == id ? at - bodies.id.begin() : -1;
-}
 
 // The site of two disks is the mid-point of their centres: (rho_i + rho_j + alert) / 2 from a disk's centre at most; that of a disk
 // and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.

@@ -8,21 +8,11 @@
 #include "nscdd/communicator.h"
 #include "nscdd/platform_adapter.h"
 #include "partition/grid.h"
+#include "partition/population.h"
 #include "partition/sharing.h"
 #include "stepping/impulse_cache.h"
 
 namespace nscdd {
-
-/// The bodies that a rank holds: those it owns (their home cell is one of its subdomains) and ghosts, which other ranks own but
-/// which may take part in contacts of its subdomains. Rows ascend by id.
-struct Population {
-  BodyTable bodies;
-  std::vector<int> owner;                 ///< rank, of each row
-  std::vector<std::vector<int>> holders;  ///< ranks that hold it, ascending, owner included; empty: the owner alone
-
-  std::size_t size() const { return owner.size(); }
-  std::ptrdiff_t RowOf(std::int64_t id) const;  ///< -1 if it is not here
-};
 
 /// How far from its centre a body may have contact sites at a detection.
 struct Reach {
