@@ -6,6 +6,8 @@ source=$1 build=$2 flags=$3
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# Folders of the source tree, not its bare path: that may be as short as /src.
+names_our_trees() { grep -rF "-e$build/" "-e$source"/{core,adapters,plugin,tests,sample_scenes}/ "$@"; }
 fail() { echo "install: $*" >&2; exit 1; }
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install failed."; }
@@ -13,7 +15,7 @@ for file in bin/nscdd lib/libnscdd_solver.so lib/libnscdd_core.a lib/cmake/nscdd
   include/nscdd/platform_adapter.h share/nscdd/sample_scenes/rotating_box_730.toml; do
   [[ -e $work/prefix/$file ]] || fail "$file is not in the prefix."
 done
-if grep -rlF -e "$source" -e "$build" "$work/prefix/include" "$work/prefix/lib/cmake" "$work/prefix/share"; then
+if names_our_trees -l "$work/prefix/include" "$work/prefix/lib/cmake" "$work/prefix/share"; then
   fail "the files above name a path of the source or build tree."
 fi
 
@@ -28,7 +30,7 @@ export CCACHE_BASEDIR=$work
 cmake -S "$work/third_party" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=$work/moved" \
   "-DCMAKE_C_COMPILER_LAUNCHER=$launcher" "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" \
   "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
-if grep -rF -e "$source" -e "$build" "$work/build/compile_commands.json" "$work/build/build.ninja"; then
+if names_our_trees "$work/build/compile_commands.json" "$work/build/build.ninja"; then
   fail "the third party's build uses a path of the source or build tree."
 fi
 cmake --build "$work/build"
