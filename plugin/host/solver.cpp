@@ -41,6 +41,8 @@ SolveReport SolvePart(const nscdd_report& r) {
   solve.analyses = r.analyses;
   solve.factorisations = r.factorisations;
   solve.seconds_interface = r.seconds_interface;
+  solve.extrapolations = r.extrapolations;
+  solve.acceleration_restarts = r.acceleration_restarts;
   return solve;
 }
 

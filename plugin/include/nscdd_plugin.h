@@ -233,6 +233,8 @@ typedef struct nscdd_report {
   int64_t analyses;
   int64_t factorisations;
   double seconds_interface;
+  int64_t extrapolations;
+  int64_t acceleration_restarts;
 } nscdd_report;
 
 /* A column of a table: `count` numbers of 8 bytes each, real (double) or integer (int64_t). */

@@ -35,6 +35,7 @@ void AddSolverOptions(CLI::App* command, SolverRequest* request) {
   AddSolverOption(command, request, "--criterion", "criterion", "nat, nat_max, quad, maxm or qm16");
   AddSolverOption(command, request, "--max-iterations", "max_iterations", "Sweeps, or interface updates, at most");
   AddSolverOption(command, request, "--test-every", "test_every", "Iterations between two tests of the criterion");
+  AddSolverOption(command, request, "--acceleration", "acceleration", "none or anderson (nscd, nscdd, fea)");
   AddSolverOption(command, request, "--sweeps-per-stage", "sweeps_per_stage", "Sweeps per interface update (nscdd, fea, rea)");
   AddSolverOption(command, request, "--lambda", "lambda", "Search direction of the augmented interface (fea, rea, iea)");
   AddSolverOption(command, request, "--interface", "interface", "direct or cg (fea, rea, iea)");

@@ -94,6 +94,15 @@ int& SweepsPerStage(SolverSettings& s) {
       s.algorithm);
 }
 
+AccelerationOptions& Accelerated(SolverSettings& s) {
+  return std::visit(
+      [](auto& algorithm) -> AccelerationOptions& {
+        if constexpr (requires { algorithm.acceleration; }) return algorithm.acceleration;
+        throw std::logic_error("this solver has no acceleration");
+      },
+      s.algorithm);
+}
+
 AugmentedInterfaceOptions& Interface(SolverSettings& s) {
   return std::visit(
       [](auto& algorithm) -> AugmentedInterfaceOptions& {
@@ -117,7 +126,7 @@ std::vector<Option> StoppingTable() {
           "what is tested: natural residual (relative; worst contact), or LMGC90's Quad, Maxm, QM/16"),
       Integer(
           "max_iterations", [](SolverSettings& s) -> int& { return Stopping(s).max_iterations; }, kPositiveCount,
-          "limit of sweeps (one subdomain) or interface updates"),
+          "limit of sweeps (nscd), interface updates, or factorisations (newton)"),
       Integer(
           "test_every", [](SolverSettings& s) -> int& { return Stopping(s).test_every; }, kPositiveCount,
           "iterations between two tests of the criterion; a test costs about one sweep"),
@@ -170,6 +179,20 @@ std::vector<Option> PartitionOptionTable() {
   };
 }
 
+std::vector<Option> AccelerationTable() {
+  return {
+      Choice<Acceleration>(
+          "acceleration", [](SolverSettings& s) -> Acceleration& { return Accelerated(s).method; }, {"none", "anderson"},
+          "of the iteration; none is that of the paper"),
+      Integer(
+          "anderson_depth", [](SolverSettings& s) -> int& { return Accelerated(s).depth; }, Range{1, 8},
+          "earlier iterates that are combined with the last"),
+      Integer(
+          "anderson_every", [](SolverSettings& s) -> int& { return Accelerated(s).every; }, kPositiveCount,
+          "iterations between two extrapolations"),
+  };
+}
+
 std::vector<Option> StageOptions() {
   return {Integer("sweeps_per_stage", SweepsPerStage, kPositiveCount, "sweeps of each subdomain between two interface updates")};
 }
@@ -214,6 +237,27 @@ std::vector<Option> InterfaceOptions() {
       Integer(
           "cg_max_iterations", [](SolverSettings& s) -> int& { return Interface(s).cg_max_iterations; }, kPositiveCount,
           "of one update by interface = cg"),
+  };
+}
+
+std::vector<Option> FeaOptionTable() {
+  return {Bool(
+      "jump_guard", [](SolverSettings& s) -> bool& { return std::get<FeaOptions>(s.algorithm).jump_guard; },
+      "plain updates for a while where the jump of the copies has more than doubled")};
+}
+
+std::vector<Option> NewtonOptionTable() {
+  return {
+      Real(
+          "interior_residual", "-", [](SolverSettings& s) -> double& { return std::get<NewtonOptions>(s.algorithm).interior_residual; },
+          kNotNegative, "nat_max at which the interior point stage ends; 1e-5 where nat_max 1e-8 is wanted"),
+      Integer(
+          "interior_iterations",
+          [](SolverSettings& s) -> int& { return std::get<NewtonOptions>(s.algorithm).interior_iterations; }, Range{0, 2147483647},
+          "limit of the interior point stage"),
+      Choice<LinearLibrary>(
+          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).library; },
+          {"auto", "eigen", "mumps"}, "auto is our block LU; mumps needs mpirun"),
   };
 }
 

@@ -32,8 +32,12 @@ std::vector<Option> CommonOptions();
 /// Options of solvers with subdomains: the grid; sweeps of stage 1; the augmented interface; what REA and IEA add.
 std::vector<Option> PartitionOptionTable();
 std::vector<Option> StageOptions();
+/// acceleration, ...: of the iterations of nscd, nscdd and fea.
+std::vector<Option> AccelerationTable();
 std::vector<Option> InterfaceOptions();
+std::vector<Option> FeaOptionTable();
 std::vector<Option> ReaOptionTable();
 std::vector<Option> IeaOptionTable();
+std::vector<Option> NewtonOptionTable();
 
 }  // namespace nscdd

@@ -42,6 +42,8 @@ void CopySolve(const SolveReport& solve, nscdd_report* target) {
   target->analyses = solve.analyses;
   target->factorisations = solve.factorisations;
   target->seconds_interface = solve.seconds_interface;
+  target->extrapolations = solve.extrapolations;
+  target->acceleration_restarts = solve.acceleration_restarts;
 }
 
 }  // namespace

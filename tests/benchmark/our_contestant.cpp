@@ -21,7 +21,7 @@ class OurContestant final : public Contestant {
   OurContestant(const Scene& scene, const StoppingOptions& stopping)
       : scene_(scene),
         platform_(MakePlatform("box2d", scene)),
-        stepper_(Stepping(scene), NscdOptions{stopping}, &platform_->adapter(), &communicator_) {
+        stepper_(Stepping(scene), NscdOptions{stopping, {}}, &platform_->adapter(), &communicator_) {
     ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform_->Add(body); });
   }
 

@@ -62,13 +62,13 @@ class Run(ProgramTest):
 
     def test_every_solver_runs_the_paper_scene(self):
         scene = SCENES / "rotating_box_730.toml"
-        for solver in ("nscd", "nscdd", "fea", "rea", "iea"):
+        for solver in ("nscd", "nscdd", "fea", "rea", "iea", "newton"):
             with self.subTest(solver=solver):
                 steps = read_csv(self.run_scene(scene, "--solver", solver, "--steps", 4, out=solver) / "steps.csv")
                 allowed = {"converged", "incomplete"} if solver in ("rea", "iea") else {"converged"}
                 self.assertLessEqual({s["status"] for s in steps}, allowed)
                 self.assertGreater(int(steps[-1]["active"]), 1000)
-                self.assertEqual(int(steps[-1]["factorisations"]) > 0, solver in ("fea", "rea", "iea"))
+                self.assertEqual(int(steps[-1]["factorisations"]) > 0, solver in ("fea", "rea", "iea", "newton"))
 
     def test_pictures(self):
         out = self.run_scene(SCENES / "pyramid.toml", "--steps", 3, "--save-every", 2)
@@ -104,7 +104,8 @@ class Solve(unittest.TestCase):
         for a, b in zip(found["V_end"], stored["V_end"]):
             self.assertAlmostEqual(a, b, delta=1e-12)
         # Three iterations from rest are the stored trace: the same partition, the same order.
-        done = nscdd("solve", path, "--solver", "nscdd", "--subdomains", "2x1", "--tolerance", 0, "--max-iterations", 3)
+        done = nscdd("solve", path, "--solver", "nscdd", "--subdomains", "2x1", "--tolerance", 0, "--max-iterations", 3,
+                     "--acceleration", "none")
         found = json.loads(done.stdout)
         self.assertEqual(found["status"], "iteration_limit")
         for a, b in zip(found["r"], stored["nscdd_r_after_sweep_3"]):
@@ -115,7 +116,7 @@ class Lists(unittest.TestCase):
     def test_solvers(self):
         done = nscdd("solvers")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for word in ("nscd:", "nscdd:", "fea:", "rea:", "iea:", "tolerance", "subdomains", "lambda", "[m]", "NXxNY"):
+        for word in ("nscd:", "nscdd:", "fea:", "rea:", "iea:", "newton:", "acceleration", "tolerance", "subdomains", "lambda", "[m]", "NXxNY"):
             self.assertIn(word, done.stdout)
 
     def test_check_every_scene(self):

@@ -206,10 +206,12 @@ TEST(AugmentedInterface, DivergenceIsAStatusAndKeepsAGoodIterate) {
   fea.interface.local_velocity = LocalVelocity::kCurrent;
   fea.interface.lambda = 1e6;
   fea.stopping.max_iterations = 3000;
+  fea.acceleration.method = Acceleration::kNone;
+  fea.jump_guard = false;
   const ContactSolution s = SolveContactProblem(source, fea);
   EXPECT_NE(s.report.status, SolveStatus::kConverged);
   for (const Twist& v : s.velocity) EXPECT_TRUE(std::isfinite(v.vx + v.vy + v.spin));
-  EXPECT_LT(s.report.residuals.nat, 10.0);
+  for (const IterationRecord& record : s.report.history) EXPECT_FALSE(record.nat < s.report.residuals.nat);
   fea.interface.lambda = 1e12;
   EXPECT_THROW(SolveContactProblem(source, fea), Error);
 }

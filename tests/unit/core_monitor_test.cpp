@@ -126,6 +126,29 @@ TEST(Status, DivergedByNotANumber) {
   for (const double r : w.state.subdomains.front().impulse) EXPECT_EQ(r, 0.0);
 }
 
+// An iteration whose residual may rise returns the best state that was tested, its residuals and its worst contact.
+TEST(Monitor, KeepsTheBestStateOnDemand) {
+  for (const bool keeps : {true, false}) {
+    Watched w(SampleProblem({}));
+    Sweep(w.sample.problem.subdomains.front(), &w.state.subdomains.front());
+    StoppingOptions o;
+    o.max_iterations = 10;
+    Monitor monitor(w.sample.problem, o, &w.serial, keeps);
+    ASSERT_FALSE(monitor.Stops(5, w.statistics, {}, w.state));
+    const SubdomainState best = w.state.subdomains.front();
+    const Residuals residuals = monitor.residuals();
+    SubdomainState& last = w.state.subdomains.front();
+    for (double& r : last.impulse) r *= 1e-3;
+    ASSERT_TRUE(monitor.Stops(10, w.statistics, {}, w.state));
+    ASSERT_GT(monitor.residuals().nat, residuals.nat);
+    const SolveReport report = monitor.Finish(10, 10, &w.state);
+    EXPECT_EQ(report.status, SolveStatus::kIterationLimit);
+    EXPECT_EQ(report.residuals.nat == residuals.nat, keeps);
+    EXPECT_EQ(last.impulse == best.impulse, keeps);
+    EXPECT_EQ(last.velocity, best.velocity);
+  }
+}
+
 // Nothing loads the bodies and no contact carries an impulse yet: the relative residual has no scale, which is no divergence.
 TEST(Status, NoScaleIsNoDivergence) {
   Watched w(SampleProblem({}));

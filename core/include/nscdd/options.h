@@ -47,9 +47,22 @@ struct PartitionOptions {
   int repartition_every = 1;  ///< steps between two placements of the cuts
 };
 
+/// What makes the fixed point of an iteration converge in fewer of them.
+enum class Acceleration {
+  kNone,      ///< the plain iteration of the paper
+  kAnderson,  ///< Anderson's: combines the last iterates (default)
+};
+
+struct AccelerationOptions {
+  Acceleration method = Acceleration::kAnderson;
+  int depth = 5;  ///< iterates before the last that are combined, 1 to 8
+  int every = 1;  ///< iterations between two extrapolations
+};
+
 /// NonSmooth Contact Dynamics: one subdomain, NLGS sweeps. Reference solver of the paper.
 struct NscdOptions {
   StoppingOptions stopping;
+  AccelerationOptions acceleration;
 };
 
 /// NSCDD, the paper's Algorithm 1: sweeps in each subdomain, then the mean velocity of the copies of each interface body.
@@ -57,6 +70,7 @@ struct NscddOptions {
   StoppingOptions stopping;
   PartitionOptions partition;
   int sweeps_per_stage = 1;  ///< n_GS
+  AccelerationOptions acceleration;
 };
 
 /// Columns of G, the contacts that the linear interface problem sees: active ones (r_n > 0), their
@@ -114,6 +128,8 @@ struct FeaOptions {
   PartitionOptions partition;
   int sweeps_per_stage = 5;  ///< n_GS
   AugmentedInterfaceOptions interface;
+  AccelerationOptions acceleration;
+  bool jump_guard = true;  ///< plain updates for a while where the jump of the copies has more than doubled
 };
 
 /// Relaxed enriched algorithm, Algorithm 3: iterates like FEA until the interface alone converges, then in each subdomain with the
@@ -136,6 +152,15 @@ struct IeaOptions {
   int closing_updates = 0;  ///< closing iterations of NSCDD ("hybrid")
 };
 
-using AlgorithmOptions = std::variant<NscdOptions, NscddOptions, FeaOptions, ReaOptions, IeaOptions>;
+/// High accuracy with friction: interior point iterations, then proximal semismooth Newton steps, on one subdomain. Iterations are
+/// factorisations of a matrix of the size of all bodies; the criterion is nat or nat_max.
+struct NewtonOptions {
+  StoppingOptions stopping{Criterion::kNat, 1e-6, 600, 1, 150};
+  double interior_residual = 1e-2;  ///< [-] nat_max at which the interior point stage hands over; 1e-5 when nat_max 1e-8 is wanted
+  int interior_iterations = 200;    ///< at most
+  LinearLibrary library = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
+};
+
+using AlgorithmOptions = std::variant<NscdOptions, NscddOptions, FeaOptions, ReaOptions, IeaOptions, NewtonOptions>;
 
 }  // namespace nscdd

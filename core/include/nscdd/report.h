@@ -8,13 +8,13 @@
 
 namespace nscdd {
 
-/// How a solve ended.
+/// How a solve ended. Solvers whose residual need not fall from test to test (accelerated ones, the augmented interface, newton)
+/// return the best tested iterate, the others the last one, or zero impulses if it diverged.
 enum class SolveStatus {
   kConverged,       ///< the criterion fell below its tolerance (or there was no contact)
   kIterationLimit,  ///< max_iterations reached first
-  kStalled,         ///< no new minimum of the residual for stall_iterations iterations
-  kDiverged,        ///< the residual is not finite, or above 1e6 times the first one and above 1; the best tested iterate is
-                    ///< returned where the solver can diverge (augmented interface), else zero impulses
+  kStalled,         ///< no new minimum of the residual for stall_iterations iterations, or no further step was possible
+  kDiverged,        ///< the residual is not finite, or above 1e6 times the first one and above 1
   kIncomplete,      ///< an incomplete resolution (REA, IEA) did all that it does; the criterion does not hold for the whole sample
 };
 
@@ -47,6 +47,8 @@ struct SolveReport {
   int iterations = 0;             ///< sweeps (NSCD), interface updates (NSCDD, FEA), these and the local sweeps (REA), local sweeps (IEA)
   std::int64_t sweeps = 0;        ///< sweeps of every contact (of the subdomain that needed most, where they differ)
   std::int64_t interface_updates = 0;  ///< stages 2
+  std::int64_t extrapolations = 0;     ///< of the acceleration
+  std::int64_t acceleration_restarts = 0;  ///< times that it forgot its history because the residual had grown
   std::int64_t cg_iterations = 0;      ///< of all updates
   std::int64_t cg_failures = 0;        ///< updates in which the conjugate gradient met its iteration limit
   std::int64_t analyses = 0;           ///< symbolic factorisations

@@ -31,4 +31,8 @@ SolveReport Solve(const PartitionedProblem& problem, const ReaOptions& options, 
 SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, Communicator* communicator,
                   InterfaceWorkspace* workspace, PartitionedState* state);
 
+/// Interior point and proximal Newton stages on one subdomain; starts cold, whatever `state` says. Best tested iterate.
+SolveReport Solve(const PartitionedProblem& problem, const NewtonOptions& options, Communicator* communicator,
+                  InterfaceWorkspace* workspace, PartitionedState* state);
+
 }  // namespace nscdd

@@ -1,15 +1,46 @@
+#include <algorithm>
+#include <cmath>
+
 #include "algorithms/algorithms.h"
+#include "algorithms/anderson.h"
 #include "algorithms/stages.h"
 
 namespace nscdd {
+namespace {
+
+/// Where the jump of the copies has more than doubled in five or more updates, lambda is too large for what n_GS sweeps undo: the
+/// next five updates are plain (lambda = 0), the next time ten, and so on.
+class JumpGuard {
+ public:
+  void Watch(int update, double jump) {
+    if (update - since_ < 5) return;
+    if (jump > 2.0 * jump_) {
+      plain_until_ = update + plain_updates_;
+      plain_updates_ = std::min(2 * plain_updates_, 1 << 20);
+    }
+    jump_ = jump;
+    since_ = update;
+  }
+  bool IsPlain(int update) const { return update < plain_until_; }
+
+ private:
+  int since_ = 0, plain_until_ = 0;
+  int plain_updates_ = 5;
+  double jump_ = INFINITY;
+};
+
+}  // namespace
 
 SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, Communicator* communicator,
                   InterfaceWorkspace* workspace, PartitionedState* state) {
   if (options.interface.lambda == 0.0) {
-    return Solve(problem, NscddOptions{options.stopping, options.partition, options.sweeps_per_stage}, communicator, workspace, state);
+    const NscddOptions plain{options.stopping, options.partition, options.sweeps_per_stage, options.acceleration};
+    return Solve(problem, plain, communicator, workspace, state);
   }
   Monitor monitor(problem, options.stopping, communicator, /*keep_best=*/true);
   Stages stages(problem, options.interface, communicator, workspace, state);
+  Anderson anderson(problem, options.acceleration, &stages.gluing(), communicator, *state);
+  JumpGuard guard;
   int k = 1;
   for (;; ++k) {
     stages.SweepSubdomains(options.sweeps_per_stage);  // stage 1
@@ -19,10 +50,16 @@ SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, 
       stages.SwapMeans();
       if (monitor.Stops(k, stages.statistics(), stages.jumps(), *state)) break;
       stages.SwapMeans();
+      guard.Watch(k, monitor.residuals().interface_jump);
     }
-    stages.UpdateInterface();  // stage 2
+    if (options.jump_guard && guard.IsPlain(k)) {
+      stages.GlueMeans();
+    } else {
+      stages.UpdateInterface();  // stage 2
+    }
+    anderson.Extrapolate(k, state);
   }
-  return stages.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state));
+  return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));
 }
 
 }  // namespace nscdd

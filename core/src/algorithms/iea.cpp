@@ -45,7 +45,7 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
   }
   if (options.closing_updates > 0) {
     stages.GlueMeans();
-    NscddOptions closing{options.stopping, options.partition, 1};
+    NscddOptions closing{options.stopping, options.partition, 1, {}};
     closing.stopping.max_iterations = options.closing_updates;
     SolveReport report = Solve(problem, closing, communicator, workspace, state);
     if (report.status == SolveStatus::kIterationLimit) report.status = SolveStatus::kIncomplete;

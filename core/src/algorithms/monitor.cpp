@@ -97,20 +97,20 @@ double Monitor::CriterionNow() const {
 void Monitor::KeepBest(const PartitionedState& state) {
   if (!keep_best_) return;
   best_residuals_ = report_.residuals;
-  best_impulse_.resize(state.subdomains.size());
-  for (std::size_t e = 0; e < best_impulse_.size(); ++e) best_impulse_[e] = state.subdomains[e].impulse;
+  best_worst_ = worst_;
+  best_state_ = state;
 }
 
 void Monitor::RestoreBest(PartitionedState* state) {
-  const bool kept = !best_impulse_.empty() && std::isfinite(best_residuals_.nat);
-  if (kept) report_.residuals = best_residuals_;
+  report_.residuals = best_residuals_;
+  worst_ = best_worst_;
+  *state = best_state_;
+}
+
+void Monitor::SetZero(PartitionedState* state) const {
   for (std::size_t e = 0; e < problem_.subdomains.size(); ++e) {
     SubdomainState& s = state->subdomains[e];
-    if (kept) {
-      s.impulse = best_impulse_[e];
-    } else {
-      std::fill(s.impulse.begin(), s.impulse.end(), 0.0);
-    }
+    std::fill(s.impulse.begin(), s.impulse.end(), 0.0);
     ComputeVelocity(problem_.subdomains[e], &s);
   }
   std::fill(state->interface.impulse.begin(), state->interface.impulse.end(), 0.0);
@@ -239,8 +239,12 @@ void Monitor::FindWorst() {
 SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedState* state) {
   report_.iterations = iterations;
   report_.sweeps = sweeps;
+  if (keep_best_ && std::isfinite(best_residuals_.nat) && first_ >= 0.0 && !(CriterionNow() <= best_)) {
+    RestoreBest(state);
+  } else if (report_.status == SolveStatus::kDiverged) {
+    SetZero(state);
+  }
   FindWorst();
-  if (has_diverged()) RestoreBest(state);
   CountContacts(*state);
   return std::move(report_);
 }

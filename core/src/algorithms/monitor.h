@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "nscdd/communicator.h"
@@ -12,7 +14,7 @@ namespace nscdd {
 /// Watches an iteration: measures it every test_every iterations and decides when it stops. All ranks decide the same.
 class Monitor {
  public:
-  /// `keep_best`: the impulses of the best tested iterate are kept and returned if the iteration diverges.
+  /// `keep_best`: the best tested iterate is kept, and returned unless the last one is better.
   Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator, bool keep_best = false);
 
   /// Whether this iteration is tested (then sweep it with statistics).
@@ -30,10 +32,13 @@ class Monitor {
   /// How an incomplete resolution ended, after Measure(): converged if the criterion holds all the same.
   void Conclude(bool subdomains_converged);
 
-  /// The report, with counts of the final state. On divergence the impulses are those of the best iterate, or zero, V_E is
-  /// V_f + M~^-1 H_E r_E and F is zero; an interface is then glued by the caller. Collective.
+  /// Ends an iteration that cannot go on: the status is stalled.
+  void GiveUp(std::string reason) { Stop(SolveStatus::kStalled, std::move(reason)); }
+  const Residuals& residuals() const { return report_.residuals; }
+
+  /// The report, with counts of the final state: that of the last test, or the best one kept if it was better. Where the iteration
+  /// diverged and none was kept, all impulses are zero. Collective.
   SolveReport Finish(int iterations, std::int64_t sweeps, PartitionedState* state);
-  bool has_diverged() const { return report_.status == SolveStatus::kDiverged; }
 
  private:
   void MeasureAll(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
@@ -42,6 +47,7 @@ class Monitor {
   double CriterionNow() const;
   void KeepBest(const PartitionedState& state);
   void RestoreBest(PartitionedState* state);
+  void SetZero(PartitionedState* state) const;
   void CountContacts(const PartitionedState& state);
   void FindWorst();
 
@@ -54,8 +60,9 @@ class Monitor {
   double best_ = 0.0;
   int best_iteration_ = 0;
   bool keep_best_;
-  std::vector<std::vector<double>> best_impulse_;
+  PartitionedState best_state_;
   Residuals best_residuals_;
+  NaturalParts best_worst_;
 };
 
 /// The empty problem's report: converged without iterations.

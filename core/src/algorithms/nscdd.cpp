@@ -1,4 +1,5 @@
 #include "algorithms/algorithms.h"
+#include "algorithms/anderson.h"
 #include "algorithms/monitor.h"
 #include "interface/gluing.h"
 #include "nlgs/sweep.h"
@@ -7,8 +8,9 @@ namespace nscdd {
 
 SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options, Communicator* communicator,
                   InterfaceWorkspace*, PartitionedState* state) {
-  Monitor monitor(problem, options.stopping, communicator);
+  Monitor monitor(problem, options.stopping, communicator, options.acceleration.method != Acceleration::kNone);
   Gluing gluing(problem.subdomains, problem.interface, communicator);
+  Anderson anderson(problem, options.acceleration, &gluing, communicator, *state);
   std::vector<SweepStatistics> statistics(problem.subdomains.size());
   std::vector<JumpPart> jumps;
   const int n_gs = options.sweeps_per_stage;
@@ -28,8 +30,9 @@ SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options
     gluing.Measure(state->subdomains, &jumps);
     gluing.Glue(&state->subdomains, &state->interface);
     if (due && monitor.Stops(k, statistics, jumps, *state)) break;
+    anderson.Extrapolate(k, state);
   }
-  SolveReport report = monitor.Finish(k, static_cast<std::int64_t>(k) * n_gs, state);
+  SolveReport report = anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * n_gs, state));
   report.interface_updates = k;
   return report;
 }

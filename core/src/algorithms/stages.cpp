@@ -74,10 +74,6 @@ Stages::LocalResult Stages::SolveSubdomains(const StoppingOptions& stopping) {
 }
 
 SolveReport Stages::Close(SolveReport report) {
-  if (report.status == SolveStatus::kDiverged) {
-    MeasureJump();
-    SwapMeans();
-  }
   report.interface_updates += updates_;
   if (!augmented_) return report;
   const InterfaceCounters& c = augmented_->counters();

@@ -37,10 +37,11 @@ class Stages {
   };
   LocalResult SolveSubdomains(const StoppingOptions& stopping);
 
+  const Gluing& gluing() const { return gluing_; }
   const std::vector<SweepStatistics>& statistics() const { return statistics_; }
   const std::vector<JumpPart>& jumps() const { return jumps_; }
 
-  /// What a diverged iteration left (Monitor::Finish) is glued, and the interface's work is added to the report.
+  /// Adds the interface's work to the report.
   SolveReport Close(SolveReport report);
 
  private:

@@ -15,7 +15,7 @@ namespace {
 class SharedMumps final : public LinearSolver {
  public:
   explicit SharedMumps(Communicator* communicator)
-      : communicator_(communicator), solver_(MakeMumpsSolver(*FortranHandleOf(*communicator), true)) {}
+      : communicator_(communicator), solver_(MakeMumpsSolver(*FortranHandleOf(*communicator), true, Symmetry::kPositiveDefinite)) {}
 
   bool is_distributed() const override { return true; }
   void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) override {
@@ -42,12 +42,15 @@ class SharedMumps final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library) {
-  if (library != LinearLibrary::kMumps) return std::make_unique<EigenSolver>();
+std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry) {
+  if (library != LinearLibrary::kMumps) {
+    if (symmetry == Symmetry::kGeneral) return std::make_unique<EigenLuSolver>();
+    return std::make_unique<EigenSolver>();
+  }
   if (!IsMpiInitialised()) {
     throw Error("linear_solver = mumps needs MPI, also on one process: start the program with mpirun -n 1, or choose eigen");
   }
-  return MakeMumpsSolver(SelfFortranHandle(), false);
+  return MakeMumpsSolver(SelfFortranHandle(), false, symmetry);
 }
 
 std::unique_ptr<LinearSolver> MakeSharedSolver(LinearLibrary library, Communicator* communicator) {

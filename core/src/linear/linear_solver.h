@@ -16,8 +16,13 @@ struct LinearCounters {
   std::int64_t solves = 0;
 };
 
-/// Sparse symmetric positive definite systems A x = b. The entries of the lower triangle are given as triplets whose pattern stays
-/// while their values change; entries at the same place are added.
+enum class Symmetry {
+  kPositiveDefinite,  ///< the lower triangle is given, row >= column
+  kGeneral,           ///< the whole matrix is given
+};
+
+/// Sparse systems A x = b. The entries are given as triplets whose pattern stays while their values change; entries at the same
+/// place are added.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -26,9 +31,9 @@ class LinearSolver {
   /// sides and solutions are complete on every rank. False: this process gives all of it.
   virtual bool is_distributed() const = 0;
 
-  /// New pattern of an n x n matrix; row >= column, both from 0.
+  /// New pattern of an n x n matrix; rows and columns count from 0.
   virtual void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) = 0;
-  /// Numbers for the triplets of Analyse(). Throws Error if the matrix is not positive definite or memory runs out.
+  /// Numbers for the triplets of Analyse(). Throws Error if the matrix is not positive definite, or is singular, or memory runs out.
   virtual void Factorise(std::span<const double> values) = 0;
   /// x := A^-1 x.
   virtual void Solve(std::span<double> x) = 0;
@@ -41,9 +46,9 @@ class LinearSolver {
 
 /// A solver for this process alone. MUMPS needs MPI to be initialised; throws Error with the mend if it is not.
 /// kAuto is Eigen, whoever started the program: results must not depend on the launcher.
-std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library);
+std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry = Symmetry::kPositiveDefinite);
 
-/// A solver for a matrix that belongs to all ranks: MUMPS over the ranks, or Eigen with the whole matrix on each of them.
+/// A solver for a positive definite matrix that belongs to all ranks: MUMPS over the ranks, or Eigen with the whole matrix on each of them.
 std::unique_ptr<LinearSolver> MakeSharedSolver(LinearLibrary library, Communicator* communicator);
 
 }  // namespace nscdd

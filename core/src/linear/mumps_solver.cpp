@@ -38,10 +38,10 @@ std::string Explain(int code, int detail) {
 
 class MumpsSolver final : public LinearSolver {
  public:
-  MumpsSolver(int fortran_communicator, bool distributed) : distributed_(distributed) {
+  MumpsSolver(int fortran_communicator, bool distributed, Symmetry symmetry) : distributed_(distributed) {
     id_.comm_fortran = fortran_communicator;
     id_.par = 1;
-    id_.sym = 1;
+    id_.sym = symmetry == Symmetry::kPositiveDefinite ? 1 : 0;
     id_.job = kInitialise;
     dmumps_c(&id_);
     Check("initialisation");
@@ -131,8 +131,8 @@ class MumpsSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> MakeMumpsSolver(int fortran_communicator, bool distributed) {
-  return std::make_unique<MumpsSolver>(fortran_communicator, distributed);
+std::unique_ptr<LinearSolver> MakeMumpsSolver(int fortran_communicator, bool distributed, Symmetry symmetry) {
+  return std::make_unique<MumpsSolver>(fortran_communicator, distributed, symmetry);
 }
 
 }  // namespace nscdd

@@ -6,8 +6,8 @@
 
 namespace nscdd {
 
-/// MUMPS, SYM = 1 (positive definite), on the communicator with the given Fortran handle. `distributed`: the ranks of the
+/// MUMPS, SYM = 1 (positive definite) or 0 (general), on the communicator with the given Fortran handle. `distributed`: the ranks of the
 /// communicator share the matrix (ICNTL(18) = 3). Throws Error with MUMPS's error code as a sentence.
-std::unique_ptr<LinearSolver> MakeMumpsSolver(int fortran_communicator, bool distributed);
+std::unique_ptr<LinearSolver> MakeMumpsSolver(int fortran_communicator, bool distributed, Symmetry symmetry);
 
 }  // namespace nscdd

@@ -148,8 +148,8 @@ ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOpti
   const PartitionedProblem& problem = assembly.problem;
   SerialCommunicator serial;
   InterfaceWorkspace workspace;
-  Require(!std::holds_alternative<NscdOptions>(options) || problem.subdomains.size() == 1,
-          "contact problem: NSCD solves one subdomain; use NSCDD for several");
+  Require(problem.subdomains.size() == 1 || std::visit([](const auto& o) { return requires { o.partition; }; }, options),
+          "contact problem: nscd and newton solve one subdomain; use nscdd for several");
 
   ContactSolution solution;
   solution.velocity = p.free_velocity;

@@ -42,30 +42,47 @@ void Check(const AugmentedInterfaceOptions& o) {
   RequireAtLeast("cg_max_iterations", o.cg_max_iterations, 1);
 }
 
-void Check(const NscdOptions& o) { Check(o.stopping); }
+void Check(const AccelerationOptions& o) {
+  Require(o.depth >= 1 && o.depth <= 8, fmt::format("anderson_depth is {}; it must be in 1 to 8", o.depth));
+  RequireAtLeast("anderson_every", o.every, 1);
+}
+
+void Check(const NscdOptions& o) {
+  Check(o.stopping);
+  Check(o.acceleration);
+}
 
 void Check(const NscddOptions& o) {
   Check(o.stopping);
   Check(o.partition);
+  Check(o.acceleration);
   RequireAtLeast("sweeps_per_stage", o.sweeps_per_stage, 1);
 }
 
 void Check(const FeaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage});
+  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage, o.acceleration});
   Check(o.interface);
 }
 
 void Check(const ReaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage});
+  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage, {}});
   Check(o.interface);
   RequireAtLeast("max_interface_updates", o.max_interface_updates, 1);
 }
 
 void Check(const IeaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, 1});
+  Check(NscddOptions{o.stopping, o.partition, 1, {}});
   Check(o.interface);
   RequireAtLeast("polish_sweeps", o.polish_sweeps, 0);
   RequireAtLeast("closing_updates", o.closing_updates, 0);
+}
+
+void Check(const NewtonOptions& o) {
+  Check(o.stopping);
+  Require(o.stopping.criterion == Criterion::kNat || o.stopping.criterion == Criterion::kNatMax,
+          "criterion of solver newton must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it has none");
+  Require(o.interior_residual >= 0.0, fmt::format("interior_residual is {}; it must not be negative", o.interior_residual));
+  RequireAtLeast("interior_iterations", o.interior_iterations, 0);
 }
 
 }  // namespace

@@ -1,0 +1,209 @@
+#include "algorithms/anderson.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
+
+#include "nlgs/sweep.h"
+#include "parallel/ordered_reduction.h"
+
+namespace nscdd {
+namespace {
+
+/// Four partial sums, in an order that is the same on every machine.
+double Dot(const double* a, const double* b, std::size_t n) {
+  double s[4] = {};
+  std::size_t k = 0;
+  for (; k + 4 <= n; k += 4) {
+    for (int i = 0; i < 4; ++i) s[i] += a[k + i] * b[k + i];
+  }
+  for (; k < n; ++k) s[0] += a[k] * b[k];
+  return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
+template <class Row>
+void AppendWeights(const std::vector<Row>& rows, std::vector<double>* weight) {
+  for (const Row& c : rows) {
+    if constexpr (Row::kModel == ContactModel::kFrictionArms) {
+      weight->insert(weight->end(), {c.wnn, c.wtt});
+    } else if constexpr (Row::kModel == ContactModel::kFriction) {
+      weight->insert(weight->end(), {1.0 / c.inverse_wnn, 1.0 / c.inverse_wtt});
+    } else {
+      weight->push_back(1.0 / c.inverse_wnn);
+    }
+  }
+}
+
+/// |r_t| <= mu r_n, r_n >= 0.
+template <class Row>
+void ClipToCones(const std::vector<Row>& rows, double* impulse) {
+  for (const Row& c : rows) {
+    impulse[0] = std::max(0.0, impulse[0]);
+    if constexpr (HasFriction(Row::kModel)) {
+      const double bound = c.friction * impulse[0];
+      impulse[1] = std::min(bound, std::max(-bound, impulse[1]));
+    }
+    impulse += Unknowns(Row::kModel);
+  }
+}
+
+}  // namespace
+
+Anderson::Anderson(const PartitionedProblem& problem, const AccelerationOptions& options, const Gluing* gluing,
+                   Communicator* communicator, const PartitionedState& start)
+    : problem_(problem), gluing_(gluing), communicator_(communicator), every_(options.every) {
+  if (options.method == Acceleration::kNone) return;
+  depth_ = options.depth;
+  parts_.resize(problem.subdomains.size());
+  for (std::size_t k = 0; k < problem.interface.copies.size(); ++k) {
+    parts_[problem.interface.copies[k].problem].copies.push_back(static_cast<std::int32_t>(k));
+  }
+  for (std::size_t e = 0; e < parts_.size(); ++e) {
+    MakePart(e);
+    Pack(e, start, parts_[e].start.data());
+  }
+}
+
+void Anderson::MakePart(std::size_t e) {
+  const SubdomainProblem& p = problem_.subdomains[e];
+  const int dofs = Dofs(p.model);
+  Part& part = parts_[e];
+  VisitRows(p, [&](const auto& rows) { AppendWeights(rows, &part.weight); });
+  for (const std::int32_t k : part.copies) {
+    const double* inverse = &p.inverse_mass[(dofs - 1) * problem_.interface.copies[k].body];
+    for (int d = 0; d < dofs; ++d) part.weight.push_back(inverse[d == 2]);
+  }
+  const std::size_t n = part.weight.size();
+  part.start.resize(n);
+  part.residual.resize(n);
+  part.weighted.resize(n);
+  part.images.resize((depth_ + 1) * n);
+  part.differences.resize(depth_ * n);
+}
+
+void Anderson::Pack(std::size_t e, const PartitionedState& state, double* out) const {
+  const std::vector<double>& impulse = state.subdomains[e].impulse;
+  out = std::copy(impulse.begin(), impulse.end(), out);
+  const int dofs = Dofs(problem_.model);
+  for (const std::int32_t k : parts_[e].copies) out = std::copy_n(&state.interface.impulse[dofs * k], dofs, out);
+}
+
+void Anderson::Unpack(std::size_t e, PartitionedState* state) const {
+  const std::vector<double>& start = parts_[e].start;
+  SubdomainState& s = state->subdomains[e];
+  std::copy_n(start.begin(), s.impulse.size(), s.impulse.begin());
+  const double* in = start.data() + s.impulse.size();
+  const int dofs = Dofs(problem_.model);
+  for (const std::int32_t k : parts_[e].copies) {
+    std::copy_n(in, dofs, &state->interface.impulse[dofs * k]);
+    in += dofs;
+  }
+  ComputeVelocity(problem_.subdomains[e], &s);
+}
+
+std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedState& state) {
+  const int slot = has_residual_ ? (newest_ + 1) % depth_ : newest_;
+  image_ = (image_ + 1) % (depth_ + 1);
+  std::vector<ReductionPart<kNumbers, 0>> sums(parts_.size());
+  for (std::size_t e = 0; e < parts_.size(); ++e) {
+    Part& part = parts_[e];
+    const std::size_t n = part.weight.size();
+    double* g = &part.images[image_ * n];
+    double* df = &part.differences[slot * n];
+    Pack(e, state, g);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double f = g[k] - part.start[k];
+      df[k] = f - part.residual[k];
+      part.residual[k] = f;
+      part.weighted[k] = part.weight[k] * df[k];
+    }
+    sums[e] = {};
+    const int kept = has_residual_ ? std::min(count_ + 1, depth_) : 0;
+    for (int age = 0; age < kept; ++age) {
+      const int other = (slot + depth_ - age) % depth_;
+      sums[e][age] = Dot(part.weighted.data(), &part.differences[other * n], n);
+    }
+    sums[e][kNumbers - 2] = Dot(part.weighted.data(), part.residual.data(), n);
+    for (std::size_t k = 0; k < n; ++k) part.weighted[k] = part.weight[k] * part.residual[k];
+    sums[e][kNumbers - 1] = Dot(part.weighted.data(), part.residual.data(), n);
+  }
+  return ReduceInOrder<kNumbers, 0>(sums, communicator_);
+}
+
+void Anderson::Keep(const std::array<double, kNumbers>& products) {
+  newest_ = (newest_ + 1) % depth_;
+  count_ = std::min(count_ + 1, depth_);
+  for (int age = 0; age < count_; ++age) {
+    const int other = Slot(age);
+    gram_[newest_][other] = gram_[other][newest_] = products[age];
+    moments_[other] += products[age];  // <f + df, df_i>
+  }
+  moments_[newest_] = products[kNumbers - 2];
+}
+
+void Anderson::Restart() {
+  count_ = 0;
+  ++restarts_;
+}
+
+/// (D^T D + 1e-10 tr(D^T D) I) c = D^T f,  D = [df_i], newest first.
+std::vector<double> Anderson::Coefficients() const {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDepth, kMaxDepth>;
+  Matrix normal(count_, count_);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDepth, 1> c(count_);
+  for (int i = 0; i < count_; ++i) {
+    for (int j = 0; j < count_; ++j) normal(i, j) = gram_[Slot(i)][Slot(j)];
+    c(i) = moments_[Slot(i)];
+  }
+  normal.diagonal().array() += 1e-10 * normal.trace();
+  normal.ldlt().solveInPlace(c);
+  return {c.data(), c.data() + count_};
+}
+
+/// start := g - sum c_i dg_i, written as a combination of the g.
+void Anderson::Combine(Part* part, const std::vector<double>& c) const {
+  const std::size_t n = part->weight.size();
+  std::vector<double>& s = part->start;
+  const double* g = &part->images[image_ * n];
+  const double first = c.empty() ? 1.0 : 1.0 - c.front();
+  for (std::size_t k = 0; k < n; ++k) s[k] = first * g[k];
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const double a = c[i] - (i + 1 < c.size() ? c[i + 1] : 0.0);
+    g = &part->images[ImageSlot(static_cast<int>(i) + 1) * n];
+    for (std::size_t k = 0; k < n; ++k) s[k] += a * g[k];
+  }
+}
+
+void Anderson::Extrapolate(int iteration, PartitionedState* state) {
+  if (depth_ == 0 || iteration % every_ != 0) return;
+  const auto products = TakeImage(*state);
+  const double norm2 = products[kNumbers - 1];
+  if (has_residual_) {
+    if (norm2 <= norm2_) {
+      Keep(products);
+    } else if (count_ > 0) {
+      Restart();
+    }
+  }
+  has_residual_ = true;
+  norm2_ = norm2;
+  const bool extrapolates = count_ > 0;
+  const std::vector<double> c = extrapolates ? Coefficients() : std::vector<double>{};
+  for (std::size_t e = 0; e < parts_.size(); ++e) {
+    Combine(&parts_[e], c);
+    if (!extrapolates) continue;
+    VisitRows(problem_.subdomains[e], [&](const auto& rows) { ClipToCones(rows, parts_[e].start.data()); });
+    Unpack(e, state);
+  }
+  if (!extrapolates) return;
+  ++extrapolations_;
+  if (gluing_ != nullptr) gluing_->SubtractImpulse(state->interface, &state->subdomains);
+}
+
+SolveReport Anderson::Close(SolveReport report) const {
+  report.extrapolations += extrapolations_;
+  report.acceleration_restarts += restarts_;
+  return report;
+}
+
+}  // namespace nscdd
