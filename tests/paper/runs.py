@@ -50,6 +50,10 @@ class Run:
         return set(self.column("status"))
 
 
+# What the paper does not have, off: its iterations are plain ones.
+PLAIN = {"nscd": {"acceleration": "none"}, "nscdd": {"acceleration": "none"}, "fea": {"acceleration": "none", "jump_guard": "false"}}
+
+
 class Program:
     """The program under study, and the folder that keeps every run."""
 
@@ -59,7 +63,7 @@ class Program:
         self.count = 0
 
     def run(self, scene, solver, steps=None, ranks=0, cold=False, save_every=None, **options):
-        """Runs a scene; options of the solver by name. Throws CalledProcessError if the program refuses."""
+        """Runs a scene; options of the solver by name, beside PLAIN. Throws CalledProcessError if the program refuses."""
         self.count += 1
         name = "_".join([scene, solver, f"r{ranks}"] + [f"{k}{v}" for k, v in options.items() if k not in QM16])
         folder = self.out / "runs" / f"{self.count:04d}_{name}"
@@ -72,7 +76,7 @@ class Program:
             command += ["--cold"]
         if save_every:
             command += ["--save-every", save_every]
-        for key, value in options.items():
+        for key, value in (PLAIN.get(solver, {}) | options).items():
             command += ["--option", f"{key}={value}"]
         if sys.stderr.isatty():
             print(f"\r\033[K{self.count:4d}  {name}", end="", file=sys.stderr, flush=True)

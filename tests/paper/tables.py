@@ -7,11 +7,14 @@ from runs import SCENES
 SAMPLE = SCENES[0.3]
 
 
+ACCELERATED = {"acceleration": "anderson", "jump_guard": "true"}
+
+
 def updates(program, quick):
-    """Interface updates to nat 1e-3 / 1e-4, one cold step, over sweeps per stage, lambda and grid."""
+    """Interface updates to nat 1e-3 / 1e-4, one cold step, over sweeps per stage, lambda and grid; plain, then accelerated."""
     grids, counts, lambdas = (["1x2", "8x8"], [1, 5], [10]) if quick else (["1x2", "4x4", "8x8"], [1, 5, 25], [10, 100, 1000])
     text = ""
-    for mu, scene in SCENES.items():
+    for mu, scene, how, extra in [(*item, *kind) for item in SCENES.items() for kind in (("plain", {}), ("Anderson", ACCELERATED))]:
         rows = []
         for grid in grids:
             for n_gs in counts:
@@ -20,11 +23,11 @@ def updates(program, quick):
                     cells = []
                     for tolerance in ("1e-3", "1e-4"):
                         run = program.run(scene, "fea", steps=1, cold=True, subdomains=grid, sweeps_per_stage=n_gs, tolerance=tolerance,
-                                          criterion="nat", test_every=1, max_iterations=4500 if value == 0 else 2500, **{"lambda": value})
+                                          criterion="nat", test_every=1, max_iterations=4500 if value == 0 else 2500, **extra, **{"lambda": value})
                         cells.append(f"{run.last('iterations'):.0f}" if run.last("status") == "converged" else "-")
                     row.append(" / ".join(cells))
                 rows.append(row)
-        text += f"\nmu = {mu}\n\n" + table(["grid, n_GS", "nscdd"] + [f"lambda {v:g}" for v in lambdas], rows)
+        text += f"\nmu = {mu}, {how}\n\n" + table(["grid, n_GS", "nscdd"] + [f"lambda {v:g}" for v in lambdas], rows)
     return text
 
 
@@ -46,7 +49,7 @@ def preconditioners(program, quick):
 
 
 def stability(program, quick):
-    """How one cold step ends, over lambda and grid: FEA with 5 sweeps per stage, and IEA's residual."""
+    """How one cold step ends, over lambda and grid: FEA with 5 sweeps per stage plain, then accelerated and guarded; IEA's residual."""
     lambdas = [0, 10, 1e4, 1e8] if quick else [0, 1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8]
     text = ""
     for mu, scene in SCENES.items():
@@ -56,8 +59,11 @@ def stability(program, quick):
             for grid in ("1x2", "4x4", "8x8"):
                 fea = program.run(scene, "fea", steps=1, cold=True, subdomains=grid, tolerance="1e-4", max_iterations=2000,
                                   **{"lambda": value})
+                own = program.run(scene, "fea", steps=1, cold=True, subdomains=grid, tolerance="1e-4", max_iterations=2000,
+                                  **ACCELERATED, **{"lambda": value})
                 iea = program.run(scene, "iea", steps=1, cold=True, subdomains=grid, tolerance="1e-4", **{"lambda": value})
-                row.append(f"{fea.last('status')} {fea.last('iterations'):.0f} (nat {fea.last('nat'):.0e}); iea {iea.last('nat'):.0e}")
+                ends = [f"{run.last('status')} {run.last('iterations'):.0f} ({run.last('nat'):.0e})" for run in (fea, own)]
+                row.append("; ".join(ends) + f"; iea {iea.last('nat'):.0e}")
             rows.append(row)
         text += f"\nmu = {mu}\n\n" + table(["lambda", "1x2", "4x4", "8x8"], rows)
     return text
