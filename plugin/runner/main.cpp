@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "commands/check.h"
+#include "commands/export.h"
 #include "commands/run.h"
 #include "commands/solve.h"
 #include "commands/solvers.h"
@@ -58,6 +59,7 @@ class Program {
     AddCheck();
     AddSolvers();
     AddSolve();
+    AddExport();
     AddRender();
     AddValidate();
   }
@@ -130,6 +132,20 @@ class Program {
     });
   }
 
+  void AddExport() {
+    CLI::App* command = app_.add_subcommand("export", "Write one step's contact problem and its answer for other programs");
+    command->add_option("input", export_.input, "Scene file (TOML) or problem file (.json)")->required();
+    command->add_option("--step", export_.step, "Step of the scene")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--fclib", export_.fclib, "File to write in FCLib's HDF5 format");
+    command->add_option("--json", export_.json, "File to write for `nscdd solve`");
+    command->add_option("--adapter", export_.adapter, "Platform: box2d or reference");
+    AddSolverOptions(command, &export_.solver);
+    OnRoot(command, [this] {
+      Export(export_);
+      return 0;
+    });
+  }
+
   void AddRender() {
     CLI::App* render = app_.add_subcommand("render", "Draw a saved step of a run");
     render->add_option("folder", render_.folder, "Folder of the results")->required();
@@ -159,6 +175,7 @@ class Program {
   const MpiSession& session_;
   CLI::App app_{"nscdd: contact dynamics of dense packings of disks, by domain decomposition"};
   RunRequest run_;
+  ExportRequest export_;
   RenderRequest render_;
   std::string show_ = "forces";
   std::string validated_;

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "nlgs/sweep.h"
+#include "nscdd/normal_law.h"
 #include "nscdd/options.h"
 #include "partition/sharing.h"
 #include "problem/subdomain_builder.h"
-#include "stepping/normal_law.h"
 
 namespace nscdd::benchmark {
 namespace {

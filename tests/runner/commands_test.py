@@ -112,6 +112,31 @@ class Solve(unittest.TestCase):
             self.assertAlmostEqual(a, b, delta=1e-14)
 
 
+class Export(ProgramTest):
+    def test_a_step_alone_has_the_same_answer(self):
+        """Clusters, with arms, loads and friction: the step within the run and its problem solved from rest."""
+        scene, tight = SCENES / "clusters.toml", ("--tolerance", "1e-12", "--max-iterations", 1000000)
+        out = self.run_scene(scene, "--steps", 300, *tight)
+        done = nscdd("export", scene, "--step", 300, "--json", self.folder / "problem.json", *tight)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"step 300 of scene clusters.*converged")
+        found = json.loads(nscdd("solve", self.folder / "problem.json", *tight).stdout)
+        self.assertEqual(found["status"], "converged")
+        self.assertGreater(sum(r > 0 for r in found["r"][::2]), 8)
+        velocities = [float(row[k]) for row in read_csv(out / "final.csv") for k in ("vx", "vy", "spin")]
+        self.assertEqual(len(found["V_end"]), len(velocities))
+        for a, b in zip(found["V_end"], velocities):
+            self.assertAlmostEqual(a, b, delta=1e-9)
+
+    def test_sites_place_contacts_in_the_same_subdomains(self):
+        scene, few = SCENES / "rotating_box_730.toml", ("--subdomains", "2x4", "--tolerance", 0, "--max-iterations", 30)
+        problem = self.folder / "problem.json"
+        self.assertEqual(nscdd("export", scene, "--json", problem, *few).returncode, 0)
+        found = json.loads(nscdd("solve", problem, "--solver", "nscdd", *few).stdout)
+        steps = read_csv(self.run_scene(scene, "--steps", 1, *few) / "steps.csv")
+        self.assertAlmostEqual(found["nat"] / float(steps[0]["nat"]), 1.0, delta=0.05)
+
+
 class Lists(unittest.TestCase):
     def test_solvers(self):
         done = nscdd("solvers")
@@ -129,7 +154,7 @@ class Lists(unittest.TestCase):
     def test_help(self):
         done = nscdd("--help")
         self.assertEqual(done.returncode, 0)
-        for command in ("run", "check", "solvers", "solve", "render", "validate-plugin"):
+        for command in ("run", "check", "solvers", "solve", "export", "render", "validate-plugin"):
             self.assertIn(command, done.stdout)
 
 

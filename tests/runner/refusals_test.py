@@ -78,9 +78,21 @@ class Refusals(ProgramTest):
         for arguments in (["walk"], ["run"], ["run", scene, "--steps", "0"], ["run", scene, "--option", "x"]):
             self.assertEqual(nscdd(*arguments).returncode, 2, arguments)
 
+    def test_export(self):
+        scene = self.write("test.toml", TWO_DISKS)
+        flying = self.write("flying.toml", TWO_DISKS.replace("point = [0.0, 0.0]", "point = [0.0, -9.0]").replace("3.0]", "9.0]"))
+        self.expect(["--fclib", "--json"], "export", scene)
+        self.expect(["no contact", "step"], "export", flying, "--fclib", "p.h5")
+        self.expect(["p.h5"], "export", scene, "--fclib", "nowhere/p.h5")
+        self.expect(["p.json"], "export", scene, "--json", "nowhere/p.json")
+        self.assertEqual(nscdd("export", scene, "--step", 0, "--json", "p.json", cwd=self.folder).returncode, 2)
+
     def test_problem_files(self):
         bad = self.write("bad.json", '{"dt": 0.01, "bodies": [[0, 1]], "contacts": []}')
         self.expect(["bad.json", "bodies", "10"], "solve", bad)
+        for key, rows in (("arms", "[[0, 0, 0, 0]]"), ("forces", "[[0, 0, 0], [0, 0, 0]]"), ("mu", "[0.3]"), ("sites", "[[0]]")):
+            bad = self.write("bad.json", '{"dt": 0.01, "bodies": [[0, 1, 0, 0, 0, 0, 1, 1, 1, 0]], "contacts": [], "%s": %s}' % (key, rows))
+            self.expect(["bad.json", key], "solve", bad)
         worse = self.write("bad.json", "{")
         self.expect(["bad.json", "JSON"], "solve", worse)
 

@@ -65,6 +65,23 @@ class Reader {
     return rows;
   }
 
+  /// The same, optional, with `count` rows, one for each `what`.
+  std::vector<std::vector<double>> TableOf(const char* key, std::size_t columns, std::size_t count, const char* what) const {
+    auto rows = Table(key, columns, true);
+    if (!rows.empty() && rows.size() != count) {
+      Refuse(fmt::format("key '{}'", key), fmt::format("has {} rows; it needs one for each {}, {} in all", rows.size(), what, count));
+    }
+    return rows;
+  }
+
+  /// One number for all of `count`, or a list with one for each; zero if the key is missing.
+  std::vector<double> NumberOrRow(const char* key, std::size_t count) const {
+    const auto at = json_.find(key);
+    if (at == json_.end() || !at->is_array()) return std::vector<double>(count, Number(key, 0.0));
+    if (at->size() != count) Refuse(fmt::format("key '{}'", key), fmt::format("has {} numbers, {} are needed", at->size(), count));
+    return Row(*at, fmt::format("key '{}'", key), count);
+  }
+
   const Json& json() const { return json_; }
 
  private:
@@ -87,6 +104,7 @@ struct Start {
 void AddBodies(const Reader& file, double dt, double theta, ContactProblem* problem, Start* start) {
   const auto gravity = file.Row(file.json().value("gravity", Json::array({0.0, 0.0})), "key 'gravity'", 2);
   const auto bodies = file.Table("bodies", 10, false);
+  const auto forces = file.TableOf("forces", 3, bodies.size(), "body");
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto& b = bodies[i];
     const bool fixed = b[9] != 0.0;
@@ -97,8 +115,11 @@ void AddBodies(const Reader& file, double dt, double theta, ContactProblem* prob
     const double drift = (1.0 - theta) * dt;
     problem->mass.push_back(fixed ? kInfinity : b[7]);
     problem->inertia.push_back(fixed ? kInfinity : b[8]);
-    problem->free_velocity.push_back(fixed ? v : Twist{v.vx + dt * gravity[0], v.vy + dt * gravity[1], v.spin});
-    problem->impulse.push_back(fixed ? Wrench{} : Wrench{dt * b[7] * gravity[0], dt * b[7] * gravity[1], 0.0});
+    Wrench f{b[7] * gravity[0], b[7] * gravity[1], 0.0};
+    if (!forces.empty()) f = {f.fx + forces[i][0], f.fy + forces[i][1], f.torque + forces[i][2]};
+    const Twist free{v.vx + dt * f.fx / b[7], v.vy + dt * f.fy / b[7], v.spin + dt * f.torque / b[8]};
+    problem->free_velocity.push_back(fixed ? v : free);
+    problem->impulse.push_back(fixed ? Wrench{} : Wrench{dt * f.fx, dt * f.fy, dt * f.torque});
     start->pose.push_back({b[0] + drift * v.vx, b[1] + drift * v.vy, b[2] + drift * v.spin});
     start->velocity.push_back(v);
   }
@@ -121,9 +142,31 @@ std::int32_t BodyRow(const Reader& file, double number, std::size_t contact, std
   return static_cast<std::int32_t>(row);
 }
 
-void AddContacts(const Reader& file, std::size_t bodies, double mu, const Start& start, ContactProblem* problem) {
+/// Arms and sites of the contacts, where the file gives them.
+void AddPlaces(const Reader& file, ContactTable* t) {
+  for (const auto& arms : file.TableOf("arms", 4, t->size(), "contact")) {
+    t->arm_a.push_back({arms[0], arms[1]});
+    t->arm_b.push_back({arms[2], arms[3]});
+  }
+  const auto sites = file.TableOf("sites", 2, t->size(), "contact");
+  for (std::size_t c = 0; c < sites.size(); ++c) t->site[c] = {sites[c][0], sites[c][1]};
+}
+
+double ApproachSpeed(const ContactTable& t, const std::vector<Twist>& velocity) {
+  double largest = 0.0;
+  for (std::size_t c = 0; c < t.size(); ++c) {
+    const Twist &va = velocity[t.a[c]], &vb = velocity[t.b[c]];
+    double approach = Dot(t.normal[c], Linear(vb) - Linear(va));
+    if (t.has_arms()) approach += Cross(t.arm_b[c], t.normal[c]) * vb.spin - Cross(t.arm_a[c], t.normal[c]) * va.spin;
+    largest = std::max(largest, -approach);
+  }
+  return largest;
+}
+
+void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem) {
   ContactTable& t = problem->contacts;
   const auto contacts = file.Table("contacts", 8, false);
+  t.friction = file.NumberOrRow("mu", contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& row = contacts[c];
     const std::int32_t b = BodyRow(file, row[0], c, bodies, problem->mass.size());
@@ -135,16 +178,15 @@ void AddContacts(const Reader& file, std::size_t bodies, double mu, const Start&
     t.gap.push_back(row[4]);
     t.lever_b.push_back(row[5]);
     t.lever_a.push_back(row[6]);
-    t.friction.push_back(mu);
     t.restitution.push_back(0.0);  // is in b_n already
     t.flat.push_back(0);
     const Vec2 centre = Centre(start.pose[b]);
     const bool plane = a >= static_cast<std::int32_t>(bodies);
     t.site.push_back(plane ? centre - row[5] * n : 0.5 * (centre + Centre(start.pose[a])));
     problem->offset.push_back(row[7]);
-    const double approach = Dot(n, Linear(start.velocity[b]) - Linear(start.velocity[a]));
-    problem->approach_speed = std::max(problem->approach_speed, -approach);
   }
+  AddPlaces(file, &t);
+  problem->approach_speed = ApproachSpeed(t, start.velocity);
 }
 
 }  // namespace
@@ -152,15 +194,43 @@ void AddContacts(const Reader& file, std::size_t bodies, double mu, const Start&
 ProblemFile ReadProblemFile(const std::filesystem::path& path) {
   const Reader file(path);
   ProblemFile result;
-  const double dt = file.Number("dt"), mu = file.Number("mu", 0.0);
+  const double dt = file.Number("dt");
   result.theta = file.Number("theta", 0.5);
   if (!(dt > 0.0)) file.Refuse("key 'dt'", "must be positive");
-  if (!(mu >= 0.0)) file.Refuse("key 'mu'", "must not be negative");
   Start start;
   AddBodies(file, dt, result.theta, &result.problem, &start);
   result.body_count = file.Table("bodies", 10, false).size();
-  AddContacts(file, result.body_count, mu, start, &result.problem);
+  AddContacts(file, result.body_count, start, &result.problem);
+  for (const double mu : result.problem.contacts.friction) {
+    if (!(mu >= 0.0)) file.Refuse("key 'mu'", "must not be negative");
+  }
   return result;
+}
+
+void WriteProblemFile(const std::filesystem::path& path, const StepProblem& step, double dt, double theta) {
+  const BodyTable& b = step.bodies;
+  const ContactTable& t = step.problem.contacts;
+  nlohmann::ordered_json json = {{"dt", dt}, {"theta", theta}, {"mu", t.friction}};
+  for (const char* key : {"bodies", "forces", "contacts", "sites"}) json[key] = Json::array();
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Pose& q = b.pose[i];
+    const Twist& v = b.velocity[i];
+    const bool fixed = b.kind[i] != BodyKind::kFree;
+    json["bodies"].push_back({q.x, q.y, q.angle, v.vx, v.vy, v.spin, b.radius[i], fixed ? 1.0 : b.mass[i], fixed ? 1.0 : b.inertia[i],
+                              fixed ? 1 : 0});
+    const Wrench f = fixed ? Wrench{} : b.force[i];
+    json["forces"].push_back({f.fx, f.fy, f.torque});
+  }
+  for (std::size_t c = 0; c < t.size(); ++c) {
+    json["contacts"].push_back({t.b[c], t.a[c], t.normal[c].x, t.normal[c].y, t.gap[c], t.lever_b[c], t.lever_a[c],
+                                step.problem.offset[c]});
+    json["sites"].push_back({t.site[c].x, t.site[c].y});
+    if (t.has_arms()) json["arms"].push_back({t.arm_a[c].x, t.arm_a[c].y, t.arm_b[c].x, t.arm_b[c].y});
+  }
+  std::ofstream out(path);
+  out << json.dump() << '\n';
+  out.close();
+  if (!out) throw Error(fmt::format("{}: the file cannot be written; check the path, its permissions and the free space", path.string()));
 }
 
 }  // namespace nscdd

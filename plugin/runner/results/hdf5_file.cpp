@@ -74,6 +74,15 @@ void Hdf5File::WriteColumn(const Hdf5Handle& group, const char* name, const char
   CheckHdf5(H5Dwrite(column.id(), type, memory.id(), space.id(), transfer.id(), data), Writing());
 }
 
+void Hdf5File::WriteText(const Hdf5Handle& group, const char* name, const std::string& text) {
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, Writing());
+  CheckHdf5(H5Tset_size(type.id(), text.size() + 1), Writing());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, Writing());
+  const Hdf5Handle data(H5Dcreate2(group.id(), name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                        Writing());
+  CheckHdf5(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), Writing());
+}
+
 Hdf5Handle Hdf5File::OpenColumn(const Hdf5Handle& group, const char* name) const {
   return {H5Dopen2(group.id(), name, H5P_DEFAULT), H5Dclose, Reading(name)};
 }

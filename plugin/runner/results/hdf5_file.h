@@ -63,6 +63,9 @@ class Hdf5File {
     Read(data, Hdf5TypeOf<T>(), column->data());
   }
 
+  /// A text of fixed length as a data set of its own.
+  void WriteText(const Hdf5Handle& group, const char* name, const std::string& text);
+
   void WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text);
   void WriteAttribute(const Hdf5Handle& object, const char* name, double value);
   void WriteAttribute(const Hdf5Handle& object, const char* name, std::int64_t value);
