@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./test.sh [PRESET]   installs what is missing, builds the preset and runs all tests.
-# PRESET: release (the default), dev, audit or asan; see CMakePresets.json.
+# PRESET: release (the default), dev, audit, asan or fuzz; see CMakePresets.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/setup.sh
@@ -8,13 +8,14 @@ source .ci/setup.sh
 preset=${1:-release}
 case $preset in
   release | dev | audit | asan) ;;
+  fuzz) debian_packages+=(clang libclang-rt-14-dev) ;;
   *)
-    echo "There is no preset '$preset'. Usage: ./test.sh [release|dev|audit|asan]" >&2
+    echo "There is no preset '$preset'. Usage: ./test.sh [release|dev|audit|asan|fuzz]" >&2
     exit 2
     ;;
 esac
 if (($# > 1)); then
-  echo "One preset at a time. Usage: ./test.sh [release|dev|audit|asan]" >&2
+  echo "One preset at a time. Usage: ./test.sh [release|dev|audit|asan|fuzz]" >&2
   exit 2
 fi
 

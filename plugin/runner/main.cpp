@@ -15,6 +15,7 @@
 #include "nscdd/error.h"
 #include "nscdd/host/validator.h"
 #include "render/render.h"
+#include "scene/utf8.h"
 
 namespace {
 
@@ -189,7 +190,7 @@ int main(int argc, char** argv) {
   try {
     return Program(session).Main(argc, argv);
   } catch (const Error& e) {  // the same on all ranks
-    if (session.ranks().is_root()) fmt::print(stderr, "nscdd: {}\n", e.what());
+    if (session.ranks().is_root()) fmt::print(stderr, "nscdd: {}\n", Printable(e.what()));
     return 2;
   } catch (const std::exception& e) {
     fmt::print(stderr, "nscdd: rank {}: unexpected: {}\n", session.ranks().rank(), e.what());

@@ -121,7 +121,7 @@ SolverSettings MakeSettings(const SolverEntry& solver, const OptionTexts& texts)
     const auto& [name, value] = texts[i];
     const Option* option = Find(solver.options, name);
     if (option == nullptr) RefuseOption(solver, name);
-    const auto same = [&](const auto& earlier) { return earlier.first == name; };
+    const auto same = [&, i](const auto& earlier) { return earlier.first == texts[i].first; };
     if (std::any_of(texts.begin(), texts.begin() + static_cast<std::ptrdiff_t>(i), same)) {
       throw Error(fmt::format("option '{}' is given twice; give it once", name));
     }

@@ -28,6 +28,8 @@ class Refusals(ProgramTest):
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
         sentences = [line for line in done.stderr.splitlines() if line.startswith("nscdd: ")]
         self.assertEqual(len(sentences), 1, done.stderr)
+        self.assertLess(len(sentences[0]), 1500)
+        self.assertFalse(any(ord(c) < 32 for c in sentences[0]), sentences[0])
         for fragment in fragments:
             self.assertIn(fragment, sentences[0])
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), before)
@@ -93,6 +95,12 @@ class Refusals(ProgramTest):
         for key, rows in (("arms", "[[0, 0, 0, 0]]"), ("forces", "[[0, 0, 0], [0, 0, 0]]"), ("mu", "[0.3]"), ("sites", "[[0]]")):
             bad = self.write("bad.json", '{"dt": 0.01, "bodies": [[0, 1, 0, 0, 0, 0, 1, 1, 1, 0]], "contacts": [], "%s": %s}' % (key, rows))
             self.expect(["bad.json", key], "solve", bad)
+        deep = self.write("deep.json", '{"dt": ' + '{"a": ' * 1000000 + "1" + "}" * 1000000 + "}")
+        self.expect(["deep.json", "dt", "object"], "solve", deep)
+        deep = self.write("deep.json", '{"dt": 0.1, "bodies": ' + "[" * 1000000 + "]" * 1000000 + "}")
+        self.expect(["deep.json", "bodies"], "solve", deep)
+        for text, word in (('{"dt": NaN}', "JSON"), ('{"dt": 1e999}', "JSON"), ('{"dt": "\\u001b[2J"}', "string"), ('{"' + "x" * 9999, "JSON")):
+            self.expect(["bad.json", word], "solve", self.write("bad.json", text))
         worse = self.write("bad.json", "{")
         self.expect(["bad.json", "JSON"], "solve", worse)
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nscdd/error.h"
+#include "scene/utf8.h"
 
 namespace nscdd {
 namespace {
@@ -27,7 +28,7 @@ class Reader {
     try {
       json_ = Json::parse(in);
     } catch (const Json::exception& e) {
-      throw Error(fmt::format("{}: not valid JSON: {}", name_, e.what()));
+      throw Error(fmt::format("{}: not valid JSON: {}", name_, Printable(e.what())));
     }
     if (!json_.is_object()) Refuse("the file", "is not an object; write {\"dt\": ..., \"bodies\": [...], ...}");
   }
@@ -86,7 +87,7 @@ class Reader {
 
  private:
   double ToNumber(const Json& value, const std::string& where) const {
-    if (!value.is_number()) Refuse(where, fmt::format("holds {} where a number is needed", value.dump()));
+    if (!value.is_number()) Refuse(where, fmt::format("holds {} where a number is needed", value.type_name()));
     const double number = value.get<double>();
     if (!std::isfinite(number)) Refuse(where, "holds a number that is not finite");
     return number;

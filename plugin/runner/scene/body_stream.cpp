@@ -14,6 +14,8 @@
 namespace nscdd {
 namespace {
 
+constexpr std::int64_t kMostBodiesOfARank = 20'000'000;  // some 20 GB on Box2D
+
 /// Makes the bodies [first, last) of one source; `number` is that of the source's first body in the scene.
 class SourceVisitor {
  public:
@@ -183,6 +185,10 @@ std::int64_t CountBodies(const Scene& scene) {
 void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit) {
   const std::int64_t count = CountBodies(scene);
   const std::int64_t begin = FirstNumber(count, rank, ranks), end = FirstNumber(count, rank + 1, ranks);
+  if (end - begin > kMostBodiesOfARank) {
+    throw Error(fmt::format("{}: makes {} bodies, {} on one process; at most {} are possible there: give fewer, or start more ranks.",
+                            scene.file.string(), count, end - begin, kMostBodiesOfARank));
+  }
   std::int64_t number = 0;
   for (const BodySource& source : scene.bodies) {
     const std::int64_t first = std::max<std::int64_t>(begin - number, 0);

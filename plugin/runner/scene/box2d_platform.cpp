@@ -1,8 +1,11 @@
 #include <box2d/box2d.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/error.h"
 #include "scene/grain_size.h"
 #include "scene/hosts.h"
 
@@ -11,6 +14,7 @@ namespace {
 
 /// Half the length of the edge that stands for a half-plane [Box2D units]; the exact geometry has no ends.
 constexpr double kHalfEdge = 1e5;
+constexpr double kLargest = 1e18;  // its square is a float, too
 
 /// Box2D's lengths (slop, skin, margin) suit bodies of 0.1 to 10 units. Powers of two change no digit of a float.
 double MetresPerUnit(const Scene& scene) {
@@ -38,6 +42,7 @@ class Box2dPlatform final : public Platform {
   PlatformAdapter& adapter() override { return adapter_; }
 
   void Add(const BodyDefinition& body) override {
+    CheckRange(body);
     // Kinematic, not static: its velocity may be set during the run.
     b2BodyDef definition;
     definition.type = body.kind == BodyKind::kFree ? b2_dynamicBody : b2_kinematicBody;
@@ -55,6 +60,26 @@ class Box2dPlatform final : public Platform {
   void SetVelocity(std::int64_t id, const Twist& velocity) override { adapter_.SetVelocity(id, velocity); }
 
  private:
+  /// Box2D squares its floats, and ends the program where one of them is not finite.
+  void CheckRange(const BodyDefinition& body) const {
+    const double unit = metres_per_unit_;
+    double largest = std::max({std::abs(body.pose.x) / unit, std::abs(body.pose.y) / unit, std::abs(body.pose.angle), body.mass,
+                               body.inertia / (unit * unit), body.friction});
+    const auto add = [&](Vec2 point) { largest = std::max({largest, std::abs(point.x) / unit, std::abs(point.y) / unit}); };
+    for (const reference::Disk& disk : body.disks) {
+      add(disk.centre);
+      add({disk.radius, 0.0});
+    }
+    for (const reference::Segment& segment : body.segments) {
+      add(segment.a);
+      add(segment.b);
+    }
+    for (const reference::HalfPlane& plane : body.half_planes) add({plane.offset, 0.0});
+    if (largest <= kLargest) return;
+    throw Error(fmt::format("Body {} has the number {:.3g}, in Box2D's units, where its range ends at {:.0e}; use adapter = \"reference\".",
+                            body.id, largest, kLargest));
+  }
+
   float Units(double metres) const { return static_cast<float>(metres / metres_per_unit_); }
   b2Vec2 Units(Vec2 metres) const { return {Units(metres.x), Units(metres.y)}; }
 

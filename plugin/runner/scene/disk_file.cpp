@@ -8,6 +8,7 @@
 
 #include "nscdd/error.h"
 #include "scene/names.h"
+#include "scene/utf8.h"
 
 namespace nscdd {
 namespace {
@@ -76,6 +77,12 @@ void DiskFileReader::Refuse(const std::string& what) const {
   throw Error(Sentence(fmt::format("{}:{}: {}", path_.string(), std::max<std::int64_t>(line_number_, 1), what)));
 }
 
+void DiskFileReader::CheckText(std::string_view line) const {
+  if (FirstLineOutsideUtf8(line) > 0) Refuse("is not UTF-8 text; save the file in this encoding");
+  const auto is_control = [](char c) { return c != '\t' && c != '\r' && HasControls({&c, 1}); };
+  if (std::any_of(line.begin(), line.end(), is_control)) Refuse("has a control character in it; give text");
+}
+
 bool DiskFileReader::NextLine() {
   while (!stream_.eof()) {
     ++line_number_;
@@ -84,6 +91,9 @@ bool DiskFileReader::NextLine() {
     if (stream_.bad()) Refuse("reading failed here; check the disk");
     if (stream_.fail() && !stream_.eof())
       Refuse(fmt::format("the line is longer than {} characters; give one disk per line", line_.size() - 2));
+    // A zero byte would hide the rest of its line.
+    const auto read = static_cast<std::size_t>(stream_.gcount()) - (stream_.eof() || stream_.gcount() == 0 ? 0 : 1);
+    CheckText({line_.data(), read});
     const std::string_view text = Trim(line_.data());
     if (!text.empty() && text.front() != '#') return true;
   }

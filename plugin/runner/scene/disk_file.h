@@ -38,6 +38,7 @@ class DiskFileReader {
 
  private:
   bool NextLine();
+  void CheckText(std::string_view line) const;
   void ReadHeader();
   void ReadField(std::size_t column, std::string_view field, DiskRow* row) const;
   [[noreturn]] void Refuse(const std::string& what) const;

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <vector>
 
+#include "scene/utf8.h"
+
 namespace nscdd {
 namespace {
 
@@ -46,7 +48,7 @@ std::string NearestName(std::string_view word, std::span<const std::string> know
 
 std::string Sentence(std::string text) {
   if (!text.ends_with('?')) text += '.';
-  return text;
+  return Printable(text);
 }
 
 std::string Suggestion(std::string_view word, std::span<const std::string> known, std::string_view noun) {

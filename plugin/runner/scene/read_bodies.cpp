@@ -14,6 +14,7 @@
 namespace nscdd {
 namespace {
 
+constexpr std::size_t kMostClusterDisks = 100'000'000;  // of one entry
 constexpr std::int64_t kMostBodies = 1'000'000'000;
 
 /// False when the radius is so small or large that mass or inertia vanish or overflow.
@@ -173,6 +174,9 @@ BodySource ReadCluster(TableReader* entry, const Scene& scene) {
   cluster.inertia = ReadOptional(entry, "inertia", "[kg m^2]");
   source.id = ReadId(entry);
   source.count = static_cast<std::int64_t>(cluster.at.size());
+  if (cluster.at.size() * cluster.disks.size() > kMostClusterDisks) {
+    entry->Refuse("at", fmt::format("makes more than {} disks in all; give fewer places", kMostClusterDisks));
+  }
   if (source.id && source.count > 1)
     entry->Refuse("id", "names one body but 'at' makes several; give one place or leave the id out");
   source.what = std::move(cluster);

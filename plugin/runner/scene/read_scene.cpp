@@ -12,6 +12,8 @@
 
 #include "nscdd/error.h"
 #include "scene/body_stream.h"
+#include "scene/key_depth.h"
+#include "scene/names.h"
 #include "scene/read_bodies.h"
 #include "scene/read_walls.h"
 #include "scene/table_reader.h"
@@ -21,6 +23,7 @@ namespace nscdd {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
+constexpr int kDeepestKey = 16;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 std::string ReadText(const std::filesystem::path& path) {
@@ -45,11 +48,16 @@ std::string ReadText(const std::filesystem::path& path) {
 }
 
 toml::table ParseToml(const std::filesystem::path& path) {
+  const std::string text = ReadText(path);
+  // toml++ limits the nesting of values, not that of keys.
+  if (const int line = FirstLineOfDeepKey(text, kDeepestKey); line > 0) {
+    throw Error(fmt::format("{}:{}: has a key of more than {} parts; scenes need two.", path.string(), line, kDeepestKey));
+  }
   try {
-    return toml::parse(ReadText(path), path.string());
+    return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: is not valid TOML ({}); mend this line.", path.string(), error.source().begin.line,
-                            error.description()));
+    throw Error(Sentence(fmt::format("{}:{}: is not valid TOML ({}); mend this line", path.string(), error.source().begin.line,
+                                     error.description())));
   }
 }
 

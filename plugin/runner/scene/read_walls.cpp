@@ -12,7 +12,8 @@
 namespace nscdd {
 namespace {
 
-constexpr double kMostShapes = 1e6;
+constexpr double kMostShapes = 1e6;  // of a wall
+constexpr std::size_t kMostShapesInAll = 3'000'000;
 
 /// Corners of the wall's line: `points` (with `closed`), or the polygon of `count` corners on `circle`.
 struct Line {
@@ -89,6 +90,9 @@ void ReadWallDisks(TableReader* entry, Wall* wall) {
   for (std::size_t leg = 0; leg < line.legs(); ++leg) {
     const Vec2 begin = line.corners[leg], step = line.end(leg) - begin;
     const auto intervals = Intervals(entry, Norm(step), spacing, 1.0);
+    if (static_cast<double>(wall->disks.size()) + static_cast<double>(intervals) > kMostShapes) {
+      entry->Refuse("spacing", fmt::format("puts more than {} disks on the wall; give a larger one [m]", kMostShapes));
+    }
     for (std::int64_t i = 0; i < intervals; ++i) {
       wall->disks.push_back({begin + (static_cast<double>(i) / static_cast<double>(intervals)) * step, radius});
     }
@@ -147,9 +151,15 @@ BodySource ReadWall(TableReader* entry, const Scene& scene) {
 }  // namespace
 
 void ReadWalls(TableReader* root, Scene* scene) {
+  std::size_t shapes = 0;
   for (TableReader& entry : root->Tables("walls")) {
     scene->bodies.push_back(ReadWall(&entry, *scene));
     entry.Finish();
+    const auto& wall = std::get<Wall>(scene->bodies.back().what);
+    shapes += wall.disks.size() + wall.segments.size();
+    if (shapes > kMostShapesInAll) {
+      entry.Refuse("type", fmt::format("and the walls before it have more than {} shapes; give fewer", kMostShapesInAll));
+    }
   }
 }
 

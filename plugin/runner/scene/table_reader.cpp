@@ -7,6 +7,7 @@
 
 #include "nscdd/error.h"
 #include "scene/names.h"
+#include "scene/utf8.h"
 
 namespace nscdd {
 namespace {
@@ -125,6 +126,7 @@ std::string TableReader::Text(std::string_view key, std::optional<std::string> f
   if (!node.is_string()) Refuse(key, fmt::format("is {}; give a text in quotes", TypeName(node)));
   const std::string& text = node.as_string()->get();
   if (text.empty()) Refuse(key, "is empty; give a text or leave the key out");
+  if (HasControls(text)) Refuse(key, "has a control character in it; leave it out");
   return text;
 }
 

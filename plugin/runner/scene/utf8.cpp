@@ -35,4 +35,24 @@ int FirstLineOutsideUtf8(std::string_view text) {
   return 0;
 }
 
+bool HasControls(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+}
+
+std::string Printable(std::string_view text) {
+  constexpr std::size_t kLongest = 1000, kEnd = 300;
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text.size() > kLongest && result.size() >= kLongest - kEnd && i + kEnd < text.size()) {
+      result += " [...] ";
+      i = text.size() - kEnd;
+    }
+    const std::size_t length = SequenceLength(text.substr(i));
+    const std::string_view character = text.substr(i, std::max<std::size_t>(length, 1));
+    result += length == 0 || HasControls(character) ? std::string_view("?") : character;
+    i += character.size();
+  }
+  return result;
+}
+
 }  // namespace nscdd

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -70,6 +69,34 @@ Body MakeWall(std::int64_t id, Pose pose = {});
 /// Throws Error that names the body if a number of it is impossible.
 void Validate(const Body& body);
 
+/// Bodies behind pointers, as a range of references (clang 14 compiles no views of libstdc++).
+template <class B>
+class BodyRange {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(Body* const* at) : at_(at) {}
+    B& operator*() const { return **at_; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    Body* const* at_;
+  };
+
+  BodyRange(std::span<Body* const> bodies) : bodies_(bodies) {}
+  Iterator begin() const { return Iterator(bodies_.data()); }
+  Iterator end() const { return Iterator(bodies_.data() + bodies_.size()); }
+  std::size_t size() const { return bodies_.size(); }
+  B& operator[](std::size_t i) const { return *bodies_[i]; }
+
+ private:
+  std::span<Body* const> bodies_;
+};
+
 /// The bodies of a small platform that integrates nothing by itself: it is moved by the solver, or by its user.
 class World {
  public:
@@ -91,12 +118,8 @@ class World {
 
   std::size_t size() const { return bodies_.size(); }
   /// A range of Body in ascending order of id, valid until the next Add() or Remove().
-  auto bodies() {
-    return std::views::transform(InOrder(), [](Body* body) -> Body& { return *body; });
-  }
-  auto bodies() const {
-    return std::views::transform(InOrder(), [](const Body* body) -> const Body& { return *body; });
-  }
+  BodyRange<Body> bodies() { return {InOrder()}; }
+  BodyRange<const Body> bodies() const { return {InOrder()}; }
 
  private:
   std::span<Body* const> InOrder() const;
