@@ -11,6 +11,7 @@
 #include "algorithms/algorithms.h"
 #include "algorithms/monitor.h"
 #include "nscdd/error.h"
+#include "nscdd/normal_law.h"
 #include "parallel/agreement.h"
 #include "parallel/ordered_reduction.h"
 #include "partition/distribution.h"
@@ -20,7 +21,6 @@
 #include "stepping/contact_checks.h"
 #include "stepping/final_gap.h"
 #include "stepping/impulse_cache.h"
-#include "stepping/normal_law.h"
 #include "stepping/reconcile.h"
 
 namespace nscdd {

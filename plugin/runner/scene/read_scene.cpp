@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -15,43 +13,12 @@
 #include "scene/read_bodies.h"
 #include "scene/read_walls.h"
 #include "scene/table_reader.h"
-#include "scene/utf8.h"
+#include "scene/toml_file.h"
 
 namespace nscdd {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
 constexpr std::int64_t kMostSteps = 1'000'000'000;
-
-std::string ReadText(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
-  }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
-    throw Error(
-        fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || text.str().empty()) {
-    throw Error(fmt::format("{}: is empty or cannot be read; write a scene (see sample_scenes/README.md).", path.string()));
-  }
-  if (const int line = FirstLineOutsideUtf8(text.str()); line > 0) {
-    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
-  }
-  return text.str();
-}
-
-toml::table ParseToml(const std::filesystem::path& path) {
-  try {
-    return toml::parse(ReadText(path), path.string());
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: is not valid TOML ({}); mend this line.", path.string(), error.source().begin.line,
-                            error.description()));
-  }
-}
 
 /// Letters, digits, '_', '-' and '.': it becomes a folder.
 bool IsPlainName(const std::string& name) {
@@ -158,22 +125,6 @@ void ReadMaterials(TableReader* root, Scene* scene) {
   if (scene->materials.empty()) scene->materials.push_back({.name = "default"});
 }
 
-/// Any value of one option as the text that the option table of the solver reads.
-std::string OptionText(const TableReader& table, std::string_view key, const toml::node& node) {
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* number = node.as_floating_point()) {
-    if (!std::isfinite(number->get())) table.Refuse(key, fmt::format("is {}; give a finite number", number->get()));
-    return fmt::format("{}", number->get());
-  }
-  const toml::array* pair = node.as_array();
-  if (pair != nullptr && pair->size() == 2 && pair->get(0)->is_integer() && pair->get(1)->is_integer()) {
-    return fmt::format("{}x{}", pair->get(0)->as_integer()->get(), pair->get(1)->as_integer()->get());
-  }
-  table.Refuse(key, fmt::format("is {}; give a number, a text, true or false, or a pair of integers", TypeName(node)));
-}
-
 void ReadSolver(TableReader* root, Scene* scene) {
   std::optional<TableReader> table = root->Table("solver");
   scene->solver.line = table ? table->Line("name") : 1;
@@ -219,7 +170,7 @@ void CheckBodies(const TableReader& root, const Scene& scene) {
 }  // namespace
 
 Scene ReadSceneFile(const std::filesystem::path& path) {
-  const toml::table text = ParseToml(path);
+  const toml::table text = ParseTomlFile(path);
   Scene scene;
   scene.file = path;
   TableReader root(text, "", scene.file);
