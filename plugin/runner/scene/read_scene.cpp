@@ -125,6 +125,18 @@ void ReadMaterials(TableReader* root, Scene* scene) {
   if (scene->materials.empty()) scene->materials.push_back({.name = "default"});
 }
 
+AutoSettings ReadWish(TableReader* solver) {
+  AutoSettings wish;
+  if (std::optional<TableReader> accuracy = solver->Table("accuracy")) {
+    wish.interpenetration = accuracy->Number("interpenetration", Bound::kPositive, "(of what `of` says)");
+    wish.of_mean_radius = accuracy->Choice("of", {"mean_radius", "metre"}, "mean_radius") == "mean_radius";
+    accuracy->Finish();
+  }
+  if (solver->Has("budget_seconds_per_step")) wish.budget = solver->Number("budget_seconds_per_step", Bound::kPositive, "[s]");
+  if (!wish.interpenetration && !wish.budget) wish.interpenetration = 1e-3;
+  return wish;
+}
+
 void ReadSolver(TableReader* root, Scene* scene) {
   std::optional<TableReader> table = root->Table("solver");
   scene->solver.line = table ? table->Line("name") : 1;
@@ -132,8 +144,11 @@ void ReadSolver(TableReader* root, Scene* scene) {
   scene->solver.name = table->Text("name", scene->solver.name);
   const bool stop = table->Choice("on_nonconvergence", {"continue", "stop"}, "continue") == "stop";
   scene->solver.on_nonconvergence = stop ? OnNonconvergence::kStop : OnNonconvergence::kContinue;
+  const bool is_auto = scene->solver.name == "auto";
+  if (is_auto) scene->solver.wish = ReadWish(&*table);
   for (const auto& [key, node] : table->table()) {
     if (key.str() == "name" || key.str() == "on_nonconvergence") continue;
+    if (is_auto && (key.str() == "accuracy" || key.str() == "budget_seconds_per_step")) continue;
     scene->solver.options.push_back({std::string(key.str()), OptionText(*table, key.str(), node), table->Line(key.str())});
   }
 }

@@ -99,7 +99,7 @@ void AddNewton(List* list) {
 void AddSubsteps(List* list) {
   for (const int substeps : {2, 4, 8}) {
     for (const int count : {5, 10, 20}) {
-      list->Add(fmt::format("nscd {} its, {} substeps", count, substeps), "nscd", Fixed(count, {{"acceleration", "none"}}),
+      list->Add(fmt::format("nscd {} its x {} substeps", count, substeps), "nscd", Fixed(count, {{"acceleration", "none"}}),
                 substeps == 4 && count == 5, substeps);
     }
   }
@@ -112,7 +112,7 @@ void AddBox2d(List* list) {
               {{"velocity_iterations", fmt::format("{}", velocity)}, {"position_iterations", fmt::format("{}", position)}},
               velocity == 8 || velocity == 50);
   }
-  list->Add("Box2D 4/2, 4 substeps", "box2d", {{"velocity_iterations", "4"}, {"position_iterations", "2"}}, false, 4);
+  list->Add("Box2D 4/2 x 4 substeps", "box2d", {{"velocity_iterations", "4"}, {"position_iterations", "2"}}, false, 4);
 }
 
 }  // namespace
