@@ -11,6 +11,7 @@
 #include "commands/run.h"
 #include "commands/solve.h"
 #include "commands/solvers.h"
+#include "commands/tradeoff.h"
 #include "mpi_session.h"
 #include "nscdd/error.h"
 #include "nscdd/host/validator.h"
@@ -61,6 +62,7 @@ class Program {
     AddSolvers();
     AddSolve();
     AddExport();
+    AddTradeoff();
     AddRender();
     AddValidate();
   }
@@ -147,6 +149,36 @@ class Program {
     });
   }
 
+  void AddTradeoff() {
+    CLI::App* tradeoff = app_.add_subcommand("tradeoff", "Measure on a scene what each saved second costs in accuracy");
+    tradeoff->add_option("scene", tradeoff_.scene, "Scene file (TOML)")->required();
+    tradeoff->add_option("--plugin", tradeoff_.solver.plugin, "Solver plugin");
+    tradeoff->add_option("--adapter", tradeoff_.adapter, "Platform: box2d or reference");
+    tradeoff->add_option("--solvers", tradeoff_.solvers, "Only settings of these solvers, as nscd,nscdd,box2d")->delimiter(',');
+    tradeoff->add_option("--settings", tradeoff_.settings, "File of [[settings]] instead of the built-in list");
+    tradeoff->add_option("--observable", tradeoff_.observable, "Compared with the reference's: centre_of_mass_x, centre_of_mass_y, "
+                         "kinetic_energy, wall_force, wall_force_x, wall_force_y or flow_rate")->capture_default_str();
+    tradeoff->add_option("--accuracy", tradeoff_.accuracy, "What whole runs are ranked by: nat, nat_max or interpenetration")
+        ->capture_default_str();
+    tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(CLI::PositiveNumber);
+    tradeoff->add_option("--steps", tradeoff_.steps, "Steps of the runs (default: the scene's, at most 100)")
+        ->check(CLI::PositiveNumber);
+    tradeoff->add_option("--problems", tradeoff_.problems, "Steps whose problems all settings solve (default 20)")
+        ->check(CLI::PositiveNumber);
+    tradeoff->add_option("--repetitions", tradeoff_.repetitions, "Passes for the time (default 5)")->check(CLI::NonNegativeNumber);
+    tradeoff->add_option("--time-limit", tradeoff_.time_limit, "Seconds that the measurement may take (default 600)")
+        ->check(CLI::PositiveNumber);
+    tradeoff->add_option("--out", tradeoff_.out, "Folder of the results (default: results/SCENE_tradeoff)");
+    tradeoff->add_flag("--cold", tradeoff_.cold, "Solve the recorded problems from zero impulses");
+    tradeoff->add_flag("--quick", tradeoff_.quick, "A short list: 5 steps, 3 problems, 1 repetition, a minute at most");
+    tradeoff->add_flag("--store", tradeoff_.store, "Also put the front beside the scene, where solver \"auto\" finds it");
+    tradeoff->add_flag("--quiet", tradeoff_.quiet, "Print nothing but errors");
+    OnRoot(tradeoff, [this] {
+      Tradeoff(tradeoff_);
+      return 0;
+    });
+  }
+
   void AddRender() {
     CLI::App* render = app_.add_subcommand("render", "Draw a saved step of a run");
     render->add_option("folder", render_.folder, "Folder of the results")->required();
@@ -177,6 +209,7 @@ class Program {
   CLI::App app_{"nscdd: contact dynamics of dense packings of disks, by domain decomposition"};
   RunRequest run_;
   ExportRequest export_;
+  TradeoffRequest tradeoff_;
   RenderRequest render_;
   std::string show_ = "forces";
   std::string validated_;

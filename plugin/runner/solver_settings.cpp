@@ -16,11 +16,6 @@ const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::strin
   return at == end ? nullptr : at;
 }
 
-bool AnySolverHas(const SolverRegistry& registry, const std::string& option) {
-  const auto& all = registry.entries();
-  return std::any_of(all.begin(), all.end(), [&](const auto& entry) { return FindOption(*entry.info, option) != nullptr; });
-}
-
 /// Solvers that have an option, for the mend in a sentence.
 std::string SolversWith(const SolverRegistry& registry, const std::string& option) {
   std::string names;
@@ -93,6 +88,15 @@ SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, cons
     Set(&choice.options, name, value);
   }
   return choice;
+}
+
+bool AnySolverHas(const SolverRegistry& registry, const std::string& option) {
+  const auto& all = registry.entries();
+  return std::any_of(all.begin(), all.end(), [&](const auto& entry) { return FindOption(*entry.info, option) != nullptr; });
+}
+
+bool HasOption(const SolverRegistry& registry, const std::string& solver, const std::string& option) {
+  return FindOption(*registry.Find(solver).info, option) != nullptr;
 }
 
 std::string OptionValue(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name) {

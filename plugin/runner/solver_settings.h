@@ -30,6 +30,9 @@ struct SolverChoice {
 /// options and on values that the solver refuses.
 SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry);
 
+bool HasOption(const SolverRegistry& registry, const std::string& solver, const std::string& option);
+bool AnySolverHas(const SolverRegistry& registry, const std::string& option);
+
 /// Value of an option: the chosen one, or its default.
 std::string OptionValue(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name);
 

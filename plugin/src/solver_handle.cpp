@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -100,9 +101,11 @@ void SolverHandle::Solve(const nscdd_problem& problem, nscdd_solution* solution)
     throw BadCall("solve: velocity or impulse of nscdd_solution is null; give arrays for the answer");
   }
   last_ = Last::kNothing;
+  const auto start = std::chrono::steady_clock::now();
   ContactSolution answer = SolveContactProblem(single.problem, settings_.algorithm, single.warm);
-  CopySolution(answer, solution);
   report_ = {};
+  report_.seconds_solve = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  CopySolution(answer, solution);
   report_.solve = std::move(answer.report);
   for (const double mass : single.problem.mass) report_.bodies += std::isfinite(mass) ? 1 : 0;
   last_ = Last::kSolve;

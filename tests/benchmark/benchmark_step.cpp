@@ -3,33 +3,48 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <ctime>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
-#include "contestant.h"
 #include "nscdd/error.h"
+#include "scene/grain_size.h"
+#include "scene/gravity.h"
 #include "scene/read_scene.h"
+#include "tradeoff/contestant.h"
+#include "tradeoff/process_clock.h"
+#include "tradeoff/reference_run.h"
+#include "tradeoff/step_errors.h"
 
 namespace nscdd::benchmark {
 namespace {
 
-/// CPU time of this thread [s]; neither contestant starts another one.
-double ThreadSeconds() {
-  std::timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double Median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
 double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 double Max(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+
+/// A contestant that can begin again from the same start.
+struct Entry {
+  Setting setting;
+  bool continuous = true;  ///< Box2D's time-of-impact stage
+};
+
+/// What all runs share.
+struct Race {
+  Scene scene;
+  std::int64_t steps = 0;
+  SolverRegistry registry;
+  SteppingOptions stepping;
+
+  std::unique_ptr<Contestant> Start(const Entry& entry) const {
+    if (entry.setting.is_box2d()) return MakeBox2dContestant(scene, entry.setting, entry.continuous);
+    Setting setting = entry.setting;
+    setting.options.emplace_back("alert_distance", fmt::format("{}", stepping.alert_distance));
+    return MakePluginContestant(scene, "box2d", registry, setting);
+  }
+  Vec2 Gravity(std::int64_t step) const { return GravityAt(scene.gravity, step, scene.time.dt); }
+};
 
 /// What an entry did, one number a run or a step.
 struct Record {
@@ -39,30 +54,64 @@ struct Record {
 };
 
 /// From the same start; the machine's first steps (contacts found, memory taken) count.
-void TimeRun(const Entry& entry, const Scene& scene, std::int64_t steps, Record* record) {
-  const std::unique_ptr<Contestant> contestant = entry.make(scene);
-  const double start = ThreadSeconds();
-  for (std::int64_t k = 1; k <= steps; ++k) contestant->Step(k);
-  record->milliseconds.push_back(1e3 * (ThreadSeconds() - start) / static_cast<double>(steps));
+void TimeRun(const Entry& entry, const Race& race, Record* record) {
+  const std::unique_ptr<Contestant> contestant = race.Start(entry);
+  const double start = ProcessSeconds();
+  for (std::int64_t k = 1; k <= race.steps; ++k) {
+    contestant->SetGravity(race.Gravity(k));
+    contestant->Step(race.scene.time.dt);
+  }
+  record->milliseconds.push_back(1e3 * (ProcessSeconds() - start) / static_cast<double>(race.steps));
 }
 
-void MeasureRun(const Entry& entry, const Scene& scene, std::int64_t steps, Record* record) {
-  const std::unique_ptr<Contestant> contestant = entry.make(scene);
-  for (std::int64_t k = 1; k <= steps; ++k) {
-    const MeasuredStep step = contestant->StepAndMeasure(k);
-    const Interpenetration overlap = MeasureInterpenetration(&contestant->adapter(), AlertDistance(scene));
-    record->sweeps.push_back(static_cast<double>(step.sweeps));
+/// Residuals of a step's answer on our contacts, on all of them and on those only that the contestant reported.
+void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>& impulses, const Answer& answer, Record* record) {
+  std::vector<bool> is_reported;
+  double reported = 0.0, active = 0.0, matched = 0.0;
+  for (const ContactKey& key : problem.keys) {
+    const auto own = impulses.find(key);
+    is_reported.push_back(own != impulses.end());
+    matched += own != impulses.end() && own->second.x > 0.0;
+  }
+  for (const auto& [key, r] : impulses) {
+    reported += 1.0;
+    active += r.x > 0.0;
+  }
+  const AnswerResiduals all = MeasureAnswer(problem.problem, answer), on_reported = MeasureAnswer(problem.problem, answer, is_reported);
+  record->nat.push_back(all.nat);
+  record->nat_max.push_back(all.nat_max);
+  record->nat_on_reported.push_back(on_reported.nat);
+  record->nat_max_on_reported.push_back(on_reported.nat_max);
+  record->imbalance.push_back(all.momentum_defect);
+  record->candidates.push_back(static_cast<double>(problem.keys.size()));
+  record->reported.push_back(reported);
+  record->active.push_back(active);
+  record->unmatched.push_back(active - matched);
+}
+
+/// The yardstick, put to an answer whose residual the core has measured itself.
+void CheckAgainstReport(double measured, double reported, std::int64_t step) {
+  if (reported < 0.0 || std::abs(measured - reported) <= 1e-6 * reported + 1e-12) return;
+  throw Error(fmt::format("step {}: nat is {} here and {} in the solver's report; tradeoff/answer_residuals.cpp must measure what the "
+                          "core measures.", step, measured, reported));
+}
+
+void MeasureRun(const Entry& entry, const Race& race, Record* record) {
+  const std::unique_ptr<Contestant> contestant = race.Start(entry);
+  contestant->KeepImpulses(true);
+  for (std::int64_t k = 1; k <= race.steps; ++k) {
+    contestant->SetGravity(race.Gravity(k));
+    const StepProblem problem = ReadStepProblem(&contestant->adapter(), race.stepping, race.scene.time.dt);
+    contestant->Step(race.scene.time.dt);
+    const StepEnd end = ReadStepEnd(contestant.get(), problem);
+    MeasureAnswers(problem, contestant->impulses(), end.answer, record);
+    const Effort effort = contestant->LastEffort();
+    CheckAgainstReport(record->nat.back(), effort.reported_nat, k);
+    record->sweeps.push_back(static_cast<double>(effort.sweeps));
+    const Interpenetration overlap =
+        MeasureInterpenetration(&contestant->adapter(), problem.bodies.id, end.pose, race.stepping.alert_distance);
     record->mean_interpenetration.push_back(overlap.mean);
     record->max_interpenetration.push_back(overlap.max);
-    record->nat.push_back(step.residuals.nat);
-    record->nat_max.push_back(step.residuals.nat_max);
-    record->nat_on_reported.push_back(step.on_reported.nat);
-    record->nat_max_on_reported.push_back(step.on_reported.nat_max);
-    record->imbalance.push_back(step.residuals.imbalance);
-    record->candidates.push_back(static_cast<double>(step.candidates));
-    record->reported.push_back(static_cast<double>(step.reported));
-    record->active.push_back(static_cast<double>(step.active));
-    record->unmatched.push_back(static_cast<double>(step.unmatched));
   }
 }
 
@@ -72,7 +121,7 @@ void PrintCost(const std::vector<Entry>& entries, const std::vector<Record>& rec
   fmt::print("| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Record& r = records[i];
-    fmt::print("| {} | {:.2f} | {:.2f} .. {:.2f} | {:.0f} | {:.1e} | {:.1e} |\n", entries[i].name, Median(r.milliseconds),
+    fmt::print("| {} | {:.2f} | {:.2f} .. {:.2f} | {:.0f} | {:.1e} | {:.1e} |\n", entries[i].setting.name, Median(r.milliseconds),
                *std::min_element(r.milliseconds.begin(), r.milliseconds.end()), Max(r.milliseconds), Mean(r.sweeps),
                Mean(r.mean_interpenetration), Max(r.max_interpenetration));
   }
@@ -87,27 +136,36 @@ void PrintResiduals(const std::vector<Entry>& entries, const std::vector<Record>
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Record& r = records[i];
     fmt::print("| {} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.0e} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n",
-               entries[i].name, Median(r.nat), Max(r.nat), Median(r.nat_max), Max(r.nat_max), Median(r.nat_on_reported),
+               entries[i].setting.name, Median(r.nat), Max(r.nat), Median(r.nat_max), Max(r.nat_max), Median(r.nat_on_reported),
                Median(r.nat_max_on_reported), Median(r.imbalance), Mean(r.candidates), Mean(r.reported), Mean(r.active),
                Mean(r.unmatched));
   }
 }
 
+Entry Box2d(int velocity, int position, bool continuous = true) {
+  return {{fmt::format("Box2D {}/{}{}", velocity, position, continuous ? "" : ", not continuous"), "box2d",
+           {{"velocity_iterations", fmt::format("{}", velocity)}, {"position_iterations", fmt::format("{}", position)}}},
+          continuous};
+}
+Entry Sweeps(const std::string& count) {
+  return {{"nscd, " + count + " sweeps", "nscd", {{"tolerance", "0"}, {"max_iterations", count}, {"test_every", count}}}};
+}
+Entry Nat(const std::string& tolerance) { return {{"nscd, nat " + tolerance, "nscd", {{"tolerance", tolerance}}}}; }
+
 std::vector<Entry> Entries() {
-  return {Box2dEntry(8, 3, true), Box2dEntry(8, 3, false), Box2dEntry(20, 10, true), Box2dEntry(50, 20, true),
-          OurBudgetEntry(8),      OurBudgetEntry(20),      OurBudgetEntry(50),       OurEntry(1e-2),
-          OurEntry(1e-3),         OurEntry(1e-4)};
+  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"), Sweeps("20"), Sweeps("50"),
+          Nat("1e-2"), Nat("1e-3"),        Nat("1e-4")};
 }
 
-void Compare(const Scene& scene, std::int64_t steps, int runs) {
+void Compare(const Race& race, int runs) {
   const std::vector<Entry> entries = Entries();
   std::vector<Record> records(entries.size());
   for (int run = 0; run < runs; ++run) {
-    for (std::size_t i = 0; i < entries.size(); ++i) TimeRun(entries[i], scene, steps, &records[i]);
+    for (std::size_t i = 0; i < entries.size(); ++i) TimeRun(entries[i], race, &records[i]);
   }
-  for (std::size_t i = 0; i < entries.size(); ++i) MeasureRun(entries[i], scene, steps, &records[i]);
-  fmt::print("{}: {} steps of {} s, {} interleaved runs from the same start, one thread, CPU time\n", scene.name, steps,
-             scene.time.dt, runs);
+  for (std::size_t i = 0; i < entries.size(); ++i) MeasureRun(entries[i], race, &records[i]);
+  fmt::print("{}: {} steps of {} s, {} interleaved runs from the same start, one thread, CPU time\n", race.scene.name, race.steps,
+             race.scene.time.dt, runs);
   PrintCost(entries, records);
   PrintResiduals(entries, records);
 }
@@ -125,8 +183,12 @@ int main(int argc, char** argv) {
   app.add_option("--runs", runs, "Timed runs of each solver")->check(CLI::PositiveNumber)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    const nscdd::Scene scene = nscdd::ReadSceneFile(file);
-    nscdd::benchmark::Compare(scene, steps > 0 ? steps : scene.time.steps, runs);
+    nscdd::benchmark::Race race;
+    race.scene = nscdd::ReadSceneFile(file);
+    race.steps = steps > 0 ? steps : race.scene.time.steps;
+    race.registry.Add(nscdd::FindPlugin(""));
+    race.stepping.alert_distance = 0.1 * nscdd::MeanGrainRadius(race.scene);
+    nscdd::benchmark::Compare(race, runs);
   } catch (const nscdd::Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

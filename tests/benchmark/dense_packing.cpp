@@ -5,7 +5,7 @@
 
 #include "nlgs/sweep.h"
 #include "nscdd/reference/reference_adapter.h"
-#include "step_problem.h"
+#include "subdomain.h"
 
 namespace nscdd::benchmark {
 namespace {
@@ -41,9 +41,10 @@ reference::World MakeWorld(int disks, double friction) {
 DensePacking MakeDensePacking(int disks, double friction) {
   reference::World world = MakeWorld(disks, friction);
   reference::ReferenceAdapter adapter(&world);
-  const StepProblem step = ReadStepProblem(&adapter, kTimeStep, 0.1);
+  SteppingOptions stepping;
+  stepping.alert_distance = 0.1;
   DensePacking packing;
-  packing.problem = BuildSubdomain(step, AllContacts(step));
+  packing.problem = BuildSubdomain(ReadStepProblem(&adapter, stepping, kTimeStep));
   const SubdomainProblem& p = packing.problem;
   const std::size_t unknowns = Unknowns(p.model);
   packing.state = {p.free_velocity, std::vector<double>(unknowns * p.contact_count(), 0.0)};

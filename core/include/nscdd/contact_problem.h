@@ -31,7 +31,8 @@ struct ContactSolution {
   SolveReport report;
 };
 
-/// Solves one problem on this process. `warm` (empty, or one entry per contact) are the first impulses.
+/// Solves one problem on this process. `warm` (empty, or one entry per contact) are the first impulses; interface impulses begin at
+/// those that they imply.
 /// The partition in `options` is not read: problem.subdomain says it. Throws Error on inconsistent sizes or numbers.
 ContactSolution SolveContactProblem(const ContactProblem& problem, const AlgorithmOptions& options,
                                     const std::vector<Vec2>& warm = {});

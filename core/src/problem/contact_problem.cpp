@@ -9,6 +9,7 @@
 
 #include "algorithms/algorithms.h"
 #include "algorithms/monitor.h"
+#include "interface/gluing.h"
 #include "nlgs/contact_frame.h"
 #include "nlgs/sweep.h"
 #include "nscdd/error.h"
@@ -136,6 +137,14 @@ void Assemble(const ContactProblem& p, Assembly* out) {
   problem.body_id = &out->body_id;
 }
 
+/// The interface impulses that warm impulses of the whole imply: those with which all copies of a body have its velocity.
+void GlueCopies(const PartitionedProblem& problem, Communicator* communicator, PartitionedState* state) {
+  Gluing gluing(problem.subdomains, problem.interface, communicator);
+  std::vector<JumpPart> jumps;
+  gluing.Measure(state->subdomains, &jumps);
+  gluing.Glue(&state->subdomains, &state->interface);
+}
+
 }  // namespace
 
 ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOptions& options, const std::vector<Vec2>& warm) {
@@ -156,6 +165,7 @@ ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOpti
   solution.impulse.assign(p.contacts.size(), {});
   solution.relative_velocity.assign(p.contacts.size(), {});
   PartitionedState state = InitialState(problem, warm);
+  if (!warm.empty() && !problem.interface.copies.empty()) GlueCopies(problem, &serial, &state);
   solution.report = problem.contact_count == 0
                         ? ReportWithoutContacts(problem)
                         : std::visit([&](const auto& o) { return Solve(problem, o, &serial, &workspace, &state); }, options);

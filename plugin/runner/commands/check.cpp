@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "auto/pilot.h"
 #include "scene/grain_size.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
@@ -55,7 +56,8 @@ void Check(const std::filesystem::path& path, const std::string& adapter, const 
   const Scene scene = ReadSceneFile(path);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.plugin));
-  const SolverChoice choice = ChooseSolver(scene, request, registry);
+  const auto pilot = Pilot::Make(scene, request, registry, 1);
+  const SolverChoice choice = pilot ? pilot->choice() : ChooseSolver(scene, request, registry);
   CheckIds(scene);
   const std::string name = adapter.empty() ? scene.adapter : adapter;
   const auto platform = MakePlatform(name, scene);
@@ -73,7 +75,7 @@ void Check(const std::filesystem::path& path, const std::string& adapter, const 
   fmt::print("bodies      {} free, {} prescribed; mean disk radius {:.6g} m\n", free, bodies.size() - free, mean_radius);
   PrintContacts(contacts, poses, mean_radius);
   fmt::print("time        {} steps of {} s\n", scene.time.steps, scene.time.dt);
-  fmt::print("solver      {}", choice.name);
+  fmt::print("solver      {}{}", pilot ? "auto, first rung: " : "", choice.name);
   for (const auto& [key, value] : choice.options) fmt::print(", {} = {}", key, value);
   fmt::print("\nadapter     {}\nThe scene is fine.\n", name);
 }

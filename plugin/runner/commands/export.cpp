@@ -57,7 +57,7 @@ Exported FromScene(const ExportRequest& request) {
     platform->SetGravity(GravityAt(scene.gravity, step, scene.time.dt));
     solver.Step(scene.time.dt);
   }
-  StepProblem step = recorder.Problem(SteppingOf(choice, registry), scene.time.dt);
+  RecordedStep step = recorder.Problem(SteppingOf(choice, registry), scene.time.dt);
   if (!request.json.empty()) WriteProblemFile(request.json, step, scene.time.dt, scene.time.theta);
   const SolveReport report = solver.Report().solve;
   const std::string what = fmt::format("step {} of scene {}, dt {} s", request.step, scene.name, scene.time.dt);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "auto/pilot.h"
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
 #include "results/final_csv.h"
@@ -67,6 +68,7 @@ class SceneRun {
   ShapeTable shapes_;
   std::unique_ptr<AdapterHost> host_;
   std::unique_ptr<Solver> solver_;
+  std::unique_ptr<Pilot> pilot_;  // null unless the solver is "auto"
   std::unique_ptr<ResultsFolder> folder_;
   std::unique_ptr<StepsCsv> csv_;
   std::unique_ptr<ResultsFile> file_;
@@ -77,7 +79,8 @@ class SceneRun {
 void SceneRun::Prepare() {
   scene_ = ReadSceneFile(request_.scene);
   registry_.Add(FindPlugin(request_.solver.plugin));
-  choice_ = ChooseSolver(scene_, request_.solver, registry_);
+  pilot_ = Pilot::Make(scene_, request_.solver, registry_, ranks_.size());
+  choice_ = pilot_ ? pilot_->choice() : ChooseSolver(scene_, request_.solver, registry_);
   adapter_ = request_.adapter.empty() ? scene_.adapter : request_.adapter;
   steps_ = request_.steps.value_or(scene_.time.steps);
   const std::string grid = OptionValue(choice_, registry_, "subdomains");
@@ -123,9 +126,10 @@ void SceneRun::OpenResults() {
   file_ = std::make_unique<ResultsFile>(folder_.get(), run, shapes_);
   summary_.scene = scene_.name;
   summary_.adapter = adapter_;
-  summary_.solver = choice_.name;
+  summary_.solver = pilot_ ? "auto" : choice_.name;
   summary_.criterion =
       fmt::format("{} <= {}", OptionValue(choice_, registry_, "criterion"), OptionValue(choice_, registry_, "tolerance"));
+  if (pilot_) summary_.criterion = "of the rung in use";
   summary_.output = out.string();
   summary_.ranks = ranks_.size();
   summary_.subdomains_x = subdomains_x_;
@@ -157,6 +161,9 @@ bool SceneRun::Steps() {
     }
     if (step == 1 || step == steps_ || stop || (every > 0 && step % every == 0)) Save(row);
     if (stop) return true;
+    if (pilot_) {
+      pilot_->AfterStep(report, scene_.time.dt, step < steps_, ranks_, session_, *host_, &platform_->adapter(), solver_.get());
+    }
   }
   return false;
 }
@@ -183,6 +190,10 @@ void SceneRun::CloseResults() {
   if (!scene_.output.packing.empty()) {
     ranks_.RunOnRoot([&] { WritePacking(scene_, folder_->Stage("final.csv"), folder_->Stage(scene_.output.packing)); });
   }
+  if (pilot_) {
+    folder_->Count("escalations", pilot_->escalations());
+    folder_->Count("descents", pilot_->descents());
+  }
   folder_->Finish();
 }
 
@@ -192,6 +203,7 @@ void SceneRun::PrintSummary(bool stopped) {
   if (!request_.quiet) {
     fmt::print("{}", FormatSummary(summary_));
     if (!overlap_note_.empty()) fmt::print("{}\n", overlap_note_);
+    if (pilot_) fmt::print("{}\n", pilot_->Summary());
   }
   if (stopped) {
     fmt::print(stderr, "nscdd: stopped at step {}, which did not converge (solver.on_nonconvergence = \"stop\"): {}\n",

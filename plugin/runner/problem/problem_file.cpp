@@ -208,7 +208,7 @@ ProblemFile ReadProblemFile(const std::filesystem::path& path) {
   return result;
 }
 
-void WriteProblemFile(const std::filesystem::path& path, const StepProblem& step, double dt, double theta) {
+void WriteProblemFile(const std::filesystem::path& path, const RecordedStep& step, double dt, double theta) {
   const BodyTable& b = step.bodies;
   const ContactTable& t = step.problem.contacts;
   nlohmann::ordered_json json = {{"dt", dt}, {"theta", theta}, {"mu", t.friction}};

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "nscdd/contact_problem.h"
-#include "problem/step_problem.h"
+#include "problem/step_recorder.h"
 
 namespace nscdd {
 
@@ -28,6 +28,6 @@ struct ProblemFile {
 ProblemFile ReadProblemFile(const std::filesystem::path& path);
 
 /// Writes a step's problem so that it reads back the same. Throws Error when the file cannot be written.
-void WriteProblemFile(const std::filesystem::path& path, const StepProblem& step, double dt, double theta);
+void WriteProblemFile(const std::filesystem::path& path, const RecordedStep& step, double dt, double theta);
 
 }  // namespace nscdd

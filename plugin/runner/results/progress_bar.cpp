@@ -51,23 +51,26 @@ bool ProgressBar::IsDue(double now) const {
   return done_ * 10 / steps_ > done_at_last_output_ * 10 / steps_ || now - last_output_ >= kLineSeconds;
 }
 
-std::string ProgressBar::Line(const StepRow& row, double now) const {
+std::string ProgressBar::Line(const std::string& note, double now) const {
   const double remaining = (now - begin_) / static_cast<double>(done_) * static_cast<double>(steps_ - done_);
-  std::string line = fmt::format("{:3} %  step {}/{}  {} iterations  nat {:.1e}", done_ * 100 / steps_, done_, steps_,
-                                 row.iterations, row.nat);
+  std::string line = fmt::format("{:3} %  step {}/{}  {}", done_ * 100 / steps_, done_, steps_, note);
   if (not_converged_ > 0) line += fmt::format("  {} not converged", not_converged_);
   return line + (done_ < steps_ ? fmt::format("  {} left", FormatDuration(remaining))
                                 : fmt::format("  {} taken", FormatDuration(now - begin_)));
 }
 
 void ProgressBar::Update(const StepRow& row) {
+  Update(fmt::format("{} iterations  nat {:.1e}", row.iterations, row.nat), row.status != "converged" && row.status != "incomplete");
+}
+
+void ProgressBar::Update(const std::string& note, bool failed) {
   if (style_ == Style::kNone) return;
   ++done_;
-  if (row.status != "converged" && row.status != "incomplete") ++not_converged_;
+  if (failed) ++not_converged_;
   const double now = clock_();
   if (!IsDue(now)) return;
 
-  std::string line = Line(row, now);
+  std::string line = Line(note, now);
   if (style_ == Style::kLines) {
     fmt::print(stream_, "{}\n", line);
   } else {

@@ -30,11 +30,13 @@ class ProgressBar {
 
   /// After each step.
   void Update(const StepRow& row);
+  /// The same for work that is no step of a run; `note` is what the line says of it.
+  void Update(const std::string& note, bool failed = false);
   /// Ends the line of a bar, so that other output begins on a new one. Also done by the destructor.
   void Finish();
 
  private:
-  std::string Line(const StepRow& row, double now) const;
+  std::string Line(const std::string& note, double now) const;
   bool IsDue(double now) const;
 
   std::FILE* stream_;

@@ -146,6 +146,7 @@ void ResultsFolder::Rename() {
   const fs::path part = folder_ / PartOf(kMarker);
   nlohmann::ordered_json marker = nlohmann::ordered_json::parse(ReadAll(part));
   marker["files"] = staged_;
+  for (const auto& [name, value] : counts_) marker["summary"][name] = value;
   StagedFile(part).Write(marker.dump(2) + "\n");
 
   std::vector<std::string> stale(kOwnNames.begin(), kOwnNames.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -40,6 +41,8 @@ class ResultsFolder {
 
   /// Path under which the file `name` of the results is to be written; Finish() gives it its name. Not collective.
   std::filesystem::path Stage(const std::string& name);
+  /// A number for the "summary" of run.json; before Finish().
+  void Count(const std::string& name, std::int64_t value) { counts_.emplace_back(name, value); }
   /// From now on an unfinished run keeps its ".part" files.
   void KeepParts() { keep_parts_ = true; }
   /// Collective, once, after all files are closed: gives them their names, and removes what an earlier run left besides.
@@ -53,6 +56,7 @@ class ResultsFolder {
   std::filesystem::path folder_;
   RankGroup ranks_;
   std::vector<std::string> staged_;
+  std::vector<std::pair<std::string, std::int64_t>> counts_;
   std::vector<std::filesystem::path> created_;  ///< folders that were not there before, innermost first
   int lock_ = -1;                               ///< descriptor of run.json.part on rank 0
   bool keep_parts_ = false;

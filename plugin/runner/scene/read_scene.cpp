@@ -5,61 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "nscdd/error.h"
 #include "scene/body_stream.h"
-#include "scene/key_depth.h"
 #include "scene/names.h"
 #include "scene/read_bodies.h"
 #include "scene/read_walls.h"
 #include "scene/table_reader.h"
-#include "scene/utf8.h"
+#include "scene/toml_file.h"
 
 namespace nscdd {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
-constexpr int kDeepestKey = 16;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
-
-std::string ReadText(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
-  }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
-    throw Error(
-        fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || text.str().empty()) {
-    throw Error(fmt::format("{}: is empty or cannot be read; write a scene (see sample_scenes/README.md).", path.string()));
-  }
-  if (const int line = FirstLineOutsideUtf8(text.str()); line > 0) {
-    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
-  }
-  return text.str();
-}
-
-toml::table ParseToml(const std::filesystem::path& path) {
-  const std::string text = ReadText(path);
-  // toml++ limits the nesting of values, not that of keys.
-  if (const int line = FirstLineOfDeepKey(text, kDeepestKey); line > 0) {
-    throw Error(fmt::format("{}:{}: has a key of more than {} parts; scenes need two.", path.string(), line, kDeepestKey));
-  }
-  try {
-    return toml::parse(text, path.string());
-  } catch (const toml::parse_error& error) {
-    throw Error(Sentence(fmt::format("{}:{}: is not valid TOML ({}); mend this line", path.string(), error.source().begin.line,
-                                     error.description())));
-  }
-}
 
 /// Letters, digits, '_', '-' and '.': it becomes a folder.
 bool IsPlainName(const std::string& name) {
@@ -166,20 +126,16 @@ void ReadMaterials(TableReader* root, Scene* scene) {
   if (scene->materials.empty()) scene->materials.push_back({.name = "default"});
 }
 
-/// Any value of one option as the text that the option table of the solver reads.
-std::string OptionText(const TableReader& table, std::string_view key, const toml::node& node) {
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* number = node.as_floating_point()) {
-    if (!std::isfinite(number->get())) table.Refuse(key, fmt::format("is {}; give a finite number", number->get()));
-    return fmt::format("{}", number->get());
+AutoSettings ReadWish(TableReader* solver) {
+  AutoSettings wish;
+  if (std::optional<TableReader> accuracy = solver->Table("accuracy")) {
+    wish.interpenetration = accuracy->Number("interpenetration", Bound::kPositive, "(of what `of` says)");
+    wish.of_mean_radius = accuracy->Choice("of", {"mean_radius", "metre"}, "mean_radius") == "mean_radius";
+    accuracy->Finish();
   }
-  const toml::array* pair = node.as_array();
-  if (pair != nullptr && pair->size() == 2 && pair->get(0)->is_integer() && pair->get(1)->is_integer()) {
-    return fmt::format("{}x{}", pair->get(0)->as_integer()->get(), pair->get(1)->as_integer()->get());
-  }
-  table.Refuse(key, fmt::format("is {}; give a number, a text, true or false, or a pair of integers", TypeName(node)));
+  if (solver->Has("budget_seconds_per_step")) wish.budget = solver->Number("budget_seconds_per_step", Bound::kPositive, "[s]");
+  if (!wish.interpenetration && !wish.budget) wish.interpenetration = 1e-3;
+  return wish;
 }
 
 void ReadSolver(TableReader* root, Scene* scene) {
@@ -189,8 +145,11 @@ void ReadSolver(TableReader* root, Scene* scene) {
   scene->solver.name = table->Text("name", scene->solver.name);
   const bool stop = table->Choice("on_nonconvergence", {"continue", "stop"}, "continue") == "stop";
   scene->solver.on_nonconvergence = stop ? OnNonconvergence::kStop : OnNonconvergence::kContinue;
+  const bool is_auto = scene->solver.name == "auto";
+  if (is_auto) scene->solver.wish = ReadWish(&*table);
   for (const auto& [key, node] : table->table()) {
     if (key.str() == "name" || key.str() == "on_nonconvergence") continue;
+    if (is_auto && (key.str() == "accuracy" || key.str() == "budget_seconds_per_step")) continue;
     scene->solver.options.push_back({std::string(key.str()), OptionText(*table, key.str(), node), table->Line(key.str())});
   }
 }
@@ -227,7 +186,7 @@ void CheckBodies(const TableReader& root, const Scene& scene) {
 }  // namespace
 
 Scene ReadSceneFile(const std::filesystem::path& path) {
-  const toml::table text = ParseToml(path);
+  const toml::table text = ParseTomlFile(path);
   Scene scene;
   scene.file = path;
   TableReader root(text, "", scene.file);

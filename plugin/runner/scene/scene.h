@@ -84,12 +84,20 @@ struct SolverOption {
   int line = 0;
 };
 
+/// What solver "auto" is asked for; nothing: an interpenetration of 1e-3 mean radii.
+struct AutoSettings {
+  std::optional<double> interpenetration;  ///< largest that is fine, in mean radii or metres
+  bool of_mean_radius = true;
+  std::optional<double> budget;            ///< [s] a step
+};
+
 enum class OnNonconvergence { kContinue, kStop };
 
 struct SolverSettings {
   std::string name = "nscd";
   int line = 0;  ///< of the name, or of the file's first line
   std::vector<SolverOption> options;
+  std::optional<AutoSettings> wish;  ///< of the solver "auto"
   OnNonconvergence on_nonconvergence = OnNonconvergence::kContinue;
 };
 

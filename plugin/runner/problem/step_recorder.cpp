@@ -1,4 +1,4 @@
-#include "problem/step_problem.h"
+#include "problem/step_recorder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +100,9 @@ void StepRecorder::Commit(const StepResult& result) {
   committed_ = true;
 }
 
-StepProblem StepRecorder::Problem(const SteppingOptions& stepping, double dt) const {
+RecordedStep StepRecorder::Problem(const SteppingOptions& stepping, double dt) const {
   if (!committed_) throw Error("no step was solved yet, so there is no contact problem to show; solve one step at least");
-  StepProblem step{bodies_, {}, velocity_, {}};
+  RecordedStep step{bodies_, {}, velocity_, {}};
   AddBodies(bodies_, dt, &step.problem);
   std::vector<std::size_t> order(key_.size());  // a step of several subdomains commits one subdomain's contacts behind the other's
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -10,7 +10,7 @@
 namespace nscdd {
 
 /// The contact problem of one time step, and what a solver answered.
-struct StepProblem {
+struct RecordedStep {
   BodyTable bodies;        ///< at the beginning of the step, ascending ids; rows of the problem
   ContactProblem problem;  ///< contacts by key, without those that the normal law does not see
   std::vector<Twist> velocity;  ///< V by row of bodies
@@ -31,7 +31,7 @@ class StepRecorder final : public PlatformAdapter {
   BodyTransport* transport() override { return nullptr; }
 
   /// Of the last committed step, of length dt [s]. `stepping`: its normal law, which makes b_n. Throws Error when there was no step.
-  StepProblem Problem(const SteppingOptions& stepping, double dt) const;
+  RecordedStep Problem(const SteppingOptions& stepping, double dt) const;
 
  private:
   PlatformAdapter* adapter_;

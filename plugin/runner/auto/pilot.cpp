@@ -1,0 +1,110 @@
+#include "auto/pilot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "nscdd/error.h"
+
+namespace nscdd {
+namespace {
+
+constexpr const char* kAuto = "auto";
+
+/// What a request or a scene says of the grid; "" if nothing.
+std::string WantedGrid(const Scene& scene, const SolverRequest& request) {
+  std::string grid;
+  for (const SolverOption& option : scene.solver.options) {
+    if (option.key == "subdomains") grid = option.text;
+  }
+  for (const auto& [key, value] : request.options) {
+    if (key == "subdomains") grid = value;
+  }
+  const auto cross = grid.find('x');
+  const bool good = cross != std::string::npos && cross > 0 && cross + 1 < grid.size() && grid.size() < 16 &&
+                    grid.find_first_not_of("0123456789x") == std::string::npos && grid.rfind('x') == cross;
+  if (!grid.empty() && !good) throw Error(fmt::format("solver 'auto': option 'subdomains' is '{}'; write it as 4x2", grid));
+  return grid;
+}
+
+/// The rung as a choice: its options go before the scene's, those of the command line before both.
+SolverChoice ChoiceOf(const Setting& rung, const Scene& scene, const SolverRequest& request, const SolverRegistry& registry) {
+  SolverRequest own{request.plugin, rung.solver, rung.options};
+  for (const auto& option : request.options) {
+    const bool elsewhere = !HasOption(registry, rung.solver, option.first) && AnySolverHas(registry, option.first);
+    if (!elsewhere) own.options.push_back(option);  // nscd has no grid, for instance: 1x1 says the same
+  }
+  return ChooseSolver(scene, own, registry);
+}
+
+/// [m] largest growth of an interpenetration that the velocities at the end of the step explain, on this rank.
+double SolverGrowth(const Solver& solver, double dt) {
+  const TableView t = solver.Table("contacts");
+  const auto gap = t.Real("gap"), vn = t.Real("velocity_n");
+  double growth = 0.0;
+  for (std::size_t c = 0; c < gap.size(); ++c) {
+    growth = std::max(growth, std::max(0.0, -(gap[c] + dt * vn[c])) - std::max(0.0, -gap[c]));
+  }
+  return growth;
+}
+
+/// Largest over the ranks; picometres and nanoseconds are fine enough, and exact.
+double Largest(const RankGroup& ranks, double value, double unit) {
+  const double most = std::min(std::round(value / unit), 9e18);
+  return -static_cast<double>(ranks.Min(-static_cast<std::int64_t>(most))) * unit;
+}
+
+/// A new solver begins with every body in one host only.
+void RemoveGhosts(const Solver& solver, PlatformAdapter* adapter) {
+  const auto owned = solver.Table("bodies").Integer("id");
+  const std::set<std::int64_t> keep(owned.begin(), owned.end());
+  BodyTable bodies;
+  adapter->ReadBodies(&bodies);
+  for (const std::int64_t id : bodies.id) {
+    if (!keep.contains(id)) adapter->transport()->Remove(id);
+  }
+}
+
+}  // namespace
+
+Pilot::Pilot(Ladder ladder, std::vector<SolverChoice> choices, const AutoSettings& wish, const SolverRegistry& registry)
+    : ladder_(std::move(ladder)), choices_(std::move(choices)), watcher_(wish), registry_(registry) {}
+
+std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry, int ranks) {
+  if ((request.solver.empty() ? scene.solver.name : request.solver) != kAuto) return nullptr;
+  const AutoSettings wish = scene.solver.wish.value_or(AutoSettings{1e-3, true, {}});
+  const std::filesystem::path file = FrontFileOf(scene.file);
+  const bool measured = std::filesystem::exists(file);
+  Ladder ladder = MakeLadder(wish, WantedGrid(scene, request), ranks, measured ? ReadFront(file) : std::vector<FrontEntry>{},
+                             file.string(), registry);
+  if (ladder.rungs.empty()) throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
+  std::vector<SolverChoice> choices;
+  for (const Setting& rung : ladder.rungs) choices.push_back(ChoiceOf(rung, scene, request, registry));
+  return std::unique_ptr<Pilot>(new Pilot(std::move(ladder), std::move(choices), wish, registry));
+}
+
+void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
+                      const AdapterHost& host, PlatformAdapter* adapter, Solver* solver) {
+  if (report.step == 1) {  // overlaps of the start
+    const auto gap = solver->Table("contacts").Real("gap");
+    double deepest = 0.0;
+    for (const double g : gap) deepest = std::max(deepest, -g);
+    watcher_.SetStart(Largest(ranks, deepest, 1e-12));
+  }
+  const double growth = watcher_.IsTooDeep(report) ? Largest(ranks, SolverGrowth(*solver, dt), 1e-12) : 0.0;
+  const double seconds = Largest(ranks, report.seconds_total, 1e-9);
+  const bool fixed = ladder_.rungs[rung_].Option("tolerance") == "0";
+  const auto verdict = watcher_.Judge(report, fixed, growth, seconds, goes_on && rung_ + 1 < choices_.size(), goes_on && rung_ > 0);
+  if (verdict == Watcher::Verdict::kStay) return;
+  rung_ += verdict == Watcher::Verdict::kClimb ? 1 : std::size_t(-1);
+  const std::vector<std::byte> state = solver->SaveState();
+  ranks.RunTogether([&] {
+    if (ranks.size() > 1) RemoveGhosts(*solver, adapter);
+  });
+  *solver = registry_.Create({choice().name, choice().options, host.table(), session.solver_communicator()});
+  solver->LoadState(state);
+}
+
+}  // namespace nscdd

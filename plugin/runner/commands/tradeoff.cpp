@@ -1,0 +1,242 @@
+#include "commands/tradeoff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "nscdd/error.h"
+#include "results/progress_bar.h"
+#include "results/staged_file.h"
+#include "scene/platform.h"
+#include "scene/read_scene.h"
+#include "tradeoff/interrupt.h"
+#include "tradeoff/measurement.h"
+#include "tradeoff/step_problem.h"
+#include "tradeoff/tradeoff_csv.h"
+#include "tradeoff/tradeoff_plot.h"
+#include "tradeoff/tradeoff_text.h"
+
+namespace nscdd {
+namespace {
+
+/// How much is measured unless the user says so.
+struct Extent {
+  std::int64_t steps, problems;
+  int repetitions;
+  double seconds;
+};
+constexpr Extent kFull{100, 20, 5, 600.0}, kQuick{5, 3, 1, 60.0};
+constexpr double kReferenceShare = 0.25;  // of the time limit at most
+
+/// Options that say what problem a step is, not how it is solved.
+constexpr const char* kSteppingKeys[] = {"theta", "normal_law", "feedback_beta", "feedback_slop", "feedback_cap", "alert_distance"};
+
+bool IsStepping(const std::string& key) {
+  return std::any_of(std::begin(kSteppingKeys), std::end(kSteppingKeys), [&](const char* known) { return key == known; });
+}
+
+class TradeoffCommand {
+ public:
+  explicit TradeoffCommand(const TradeoffRequest& request) : request_(request), extent_(request.quick ? kQuick : kFull) {}
+
+  void Execute() {
+    Prepare();
+    MakeSettings();
+    OpenFolder();
+    const Interrupt interrupt;
+    Record(interrupt);
+    if (!interrupt.raised()) Measure(interrupt);
+    Conclude(interrupt.raised());
+  }
+
+ private:
+  void Prepare();
+  void ReadStepping();
+  void MakeSettings();
+  void OpenFolder();
+  void Record(const Interrupt& interrupt);
+  void Measure(const Interrupt& interrupt);
+  void Conclude(bool interrupted);
+  void WriteFile(const std::string& name, const std::string& text) const;
+  void StoreFront() const;
+  ProgressBar::Style BarStyle() const { return ProgressBar::StyleFor(stdout, request_.quiet); }
+  void Say(const std::string& line) const {
+    if (!request_.quiet) fmt::print("{}\n", line);
+  }
+
+  const TradeoffRequest& request_;
+  Extent extent_;
+  Scene scene_;
+  SolverRegistry registry_;
+  SolverChoice choice_;
+  Plan plan_;
+  std::int64_t contacts_ = 0;  // of the first step
+  Accuracy accuracy_ = Accuracy::kNat;
+  std::vector<Setting> settings_;
+  std::filesystem::path folder_;
+  ReferenceRun reference_;
+  std::vector<TradeoffRow> rows_;
+};
+
+void TradeoffCommand::Prepare() {
+  scene_ = ReadSceneFile(request_.scene);
+  CheckIds(scene_);
+  registry_.Add(FindPlugin(request_.solver.plugin));
+  choice_ = ChooseSolver(scene_, request_.solver, registry_);
+  accuracy_ = ParseAccuracy(request_.accuracy);
+  plan_.scene = &scene_;
+  plan_.registry = &registry_;
+  plan_.adapter = request_.adapter.empty() ? scene_.adapter : request_.adapter;
+  plan_.cold = request_.cold;
+  plan_.observable = ParseObservable(request_.observable);
+  plan_.steps = request_.steps.value_or(std::min(scene_.time.steps, extent_.steps));
+  plan_.problems = std::min(plan_.steps, request_.problems.value_or(extent_.problems));
+  extent_.repetitions = request_.repetitions.value_or(extent_.repetitions);
+  extent_.seconds = request_.time_limit.value_or(extent_.seconds);
+  ReadStepping();
+}
+
+/// The options that all settings share, as numbers for reading problems and as texts for the solvers.
+void TradeoffCommand::ReadStepping() {
+  const auto platform = MakePlatform(plan_.adapter, scene_);
+  ForEachBody(scene_, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
+  platform->SetGravity(GravityAt(scene_.gravity, 1, scene_.time.dt));
+  plan_.mean_radius = 10.0 * DefaultAlertDistance(ReadSortedBodies(&platform->adapter()));
+  const auto number = [&](const char* key) { return std::stod(OptionValue(choice_, registry_, key)); };
+  SteppingOptions& s = plan_.stepping;
+  s.theta = scene_.time.theta;
+  s.alert_distance = number("alert_distance");
+  if (s.alert_distance < 0.0) s.alert_distance = 0.1 * plan_.mean_radius;
+  s.feedback_beta = number("feedback_beta");
+  s.feedback_slop = number("feedback_slop");
+  s.feedback_cap = number("feedback_cap");
+  const std::string law = OptionValue(choice_, registry_, "normal_law");
+  s.normal_law = law == "gap" ? NormalLaw::kGap : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kStrict;
+  for (const auto& option : choice_.options) {
+    if (IsStepping(option.first) && option.first != "alert_distance") plan_.stepping_texts.push_back(option);
+  }
+  plan_.stepping_texts.emplace_back("alert_distance", fmt::format("{}", s.alert_distance));
+  contacts_ = static_cast<std::int64_t>(ReadStepProblem(&platform->adapter(), s, scene_.time.dt).keys.size());
+}
+
+void TradeoffCommand::MakeSettings() {
+  Setting own{kSceneSetting, choice_.name, {}};
+  for (const auto& option : choice_.options) {
+    if (!IsStepping(option.first)) own.options.push_back(option);
+  }
+  settings_ = {own};
+  std::vector<Setting> list = request_.settings.empty() ? DefaultSettings() : ReadSettings(request_.settings);
+  if (request_.quick && request_.settings.empty()) std::erase_if(list, [](const Setting& s) { return !s.quick; });
+  settings_.insert(settings_.end(), list.begin(), list.end());
+  if (!request_.solvers.empty()) {
+    std::erase_if(settings_, [&](const Setting& s) {
+      return s.name != kSceneSetting && std::find(request_.solvers.begin(), request_.solvers.end(), s.solver) == request_.solvers.end();
+    });
+  }
+  std::vector<std::string> notices;
+  settings_ = KnownSettings(std::move(settings_), registry_, &notices);
+  const std::string why_not = WhyNotBox2d(scene_);
+  if (!why_not.empty() && std::erase_if(settings_, [](const Setting& s) { return s.is_box2d(); }) > 0) {
+    notices.push_back("left out Box2D's own solver: " + why_not);
+  }
+  for (const std::string& notice : notices) Say(notice);
+}
+
+void TradeoffCommand::OpenFolder() {
+  folder_ = request_.out.empty() ? std::filesystem::path("results") / (scene_.name + "_tradeoff") : std::filesystem::path(request_.out);
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw Error(CannotWrite(folder_, error.value()));
+}
+
+void TradeoffCommand::Record(const Interrupt& interrupt) {
+  const Setting setting = ReferenceSetting(registry_, contacts_);
+  Say(fmt::format("{}: {} steps of {} s on {}; reference by {}, {} settings", scene_.name, plan_.steps, scene_.time.dt, plan_.adapter,
+                  setting.name, settings_.size()));
+  ProgressBar bar(stdout, BarStyle(), plan_.steps);
+  const auto start = std::chrono::steady_clock::now();
+  const auto stop = [&] {
+    const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return interrupt.raised() || used > kReferenceShare * extent_.seconds;
+  };
+  reference_ = RecordReference(plan_, setting, stop, [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
+  bar.Finish();
+  const auto done = static_cast<std::int64_t>(reference_.nat.size());
+  Say(fmt::format("reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
+                  done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
+                  reference_.steps.size()));
+  if (done < plan_.steps && !interrupt.raised()) {
+    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps", done,
+                    plan_.steps));
+  }
+}
+
+void TradeoffCommand::Measure(const Interrupt& interrupt) {
+  std::vector<std::unique_ptr<View>> views;
+  views.push_back(std::make_unique<ProblemsView>(plan_, reference_));
+  views.push_back(std::make_unique<RunsView>(plan_, reference_));
+  TradeoffCsv csv(folder_ / "tradeoff.csv");
+  std::unique_ptr<ProgressBar> bar;
+  MeasurementEvents events;
+  events.measured = [&](const TradeoffRow& row) { csv.Append(row); };
+  events.timed = [&](const std::vector<TradeoffRow>& rows) { csv.Rewrite(rows); };
+  events.tick = [&](const std::string& note, bool failed) { bar->Update(note, failed); };
+  events.interrupted = [&] { return interrupt.raised(); };
+  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - reference_.seconds, events);
+  bar = std::make_unique<ProgressBar>(stdout, BarStyle(), measurement.ticks());
+  measurement.Run();
+  bar->Finish();
+  rows_ = measurement.rows();
+}
+
+void TradeoffCommand::WriteFile(const std::string& name, const std::string& text) const {
+  std::ofstream stream(folder_ / name);
+  stream << text;
+  stream.close();
+  if (!stream) throw Error(CannotWrite(folder_ / name, errno));
+}
+
+/// Rows that `solver = "auto"` reads: whole runs of the plugin, one step a step, on the front of the interpenetration.
+void TradeoffCommand::StoreFront() const {
+  std::vector<TradeoffRow> rows = OfView(rows_, "runs");
+  std::erase_if(rows, [](const TradeoffRow& r) { return r.setting.is_box2d() || r.setting.substeps != 1; });
+  std::string text = TradeoffHeader();
+  for (const std::size_t i : ParetoFront(rows, Accuracy::kInterpenetration)) text += TradeoffLine(rows[i]);
+  WriteFile(scene_.name + ".front.csv", text);
+  if (!request_.store) return;
+  const std::filesystem::path beside = std::filesystem::path(scene_.file).replace_extension(".front.csv");
+  std::error_code error;
+  std::filesystem::copy_file(folder_ / (scene_.name + ".front.csv"), beside, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw Error(CannotWrite(beside, error.value()));
+  Say(fmt::format("front for solver \"auto\": {}", beside.string()));
+}
+
+void TradeoffCommand::Conclude(bool interrupted) {
+  if (rows_.empty()) return Say("interrupted before anything was measured");
+  const std::vector<TradeoffRow> problems = OfView(rows_, "problems"), runs = OfView(rows_, "runs");
+  const auto tables = [&](bool all) {
+    return "\nThe same problems" + std::string(plan_.cold ? ", from zero impulses" : "") + ", time of the solve alone; * front of the velocity error\n" +
+           FormatTable(problems, Accuracy::kVelocityError, all) +
+           fmt::format("\nWhole runs, detection included; * front of {}\n", NameOf(accuracy_)) + FormatTable(runs, accuracy_, all);
+  };
+  Say(tables(false));
+  const std::string box2d = FormatBox2dComparison(runs);
+  const std::string advice = FormatAdvice(runs, {accuracy_, request_.budget}, plan_);
+  if (!box2d.empty()) Say("Beside Box2D's own solver, whole runs\n" + box2d);
+  Say("Settings to paste, whole runs\n" + advice);
+  WriteFile("tradeoff.txt", tables(true) + "\n" + box2d + "\n" + advice);
+  StoreFront();
+  Say("plot: " + PlotTradeoff(folder_, scene_.name, rows_));
+  if (interrupted) Say("interrupted: what was measured until then is above and in the files");
+  Say(fmt::format("results: {}", folder_.string()));
+}
+
+}  // namespace
+
+void Tradeoff(const TradeoffRequest& request) { TradeoffCommand(request).Execute(); }
+
+}  // namespace nscdd

@@ -1,0 +1,72 @@
+#include "scene/toml_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "nscdd/error.h"
+#include "scene/key_depth.h"
+#include "scene/names.h"
+#include "scene/utf8.h"
+
+namespace nscdd {
+namespace {
+
+constexpr int kDeepestKey = 16;
+constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
+
+std::string ReadText(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
+  }
+  if (std::filesystem::file_size(path, error) > kLargestFile) {
+    throw Error(
+        fmt::format("{}: is larger than 64 MB; put the disks into a CSV file ([[disks]] file = \"...\").", path.string()));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream || text.str().empty()) {
+    throw Error(fmt::format("{}: is empty or cannot be read; write a scene (see sample_scenes/README.md).", path.string()));
+  }
+  if (const int line = FirstLineOutsideUtf8(text.str()); line > 0) {
+    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
+  }
+  return text.str();
+}
+
+}  // namespace
+
+toml::table ParseTomlFile(const std::filesystem::path& path) {
+  const std::string text = ReadText(path);
+  // toml++ limits the nesting of values, not that of keys.
+  if (const int line = FirstLineOfDeepKey(text, kDeepestKey); line > 0) {
+    throw Error(fmt::format("{}:{}: has a key of more than {} parts; scenes need two.", path.string(), line, kDeepestKey));
+  }
+  try {
+    return toml::parse(text, path.string());
+  } catch (const toml::parse_error& error) {
+    throw Error(Sentence(fmt::format("{}:{}: is not valid TOML ({}); mend this line", path.string(), error.source().begin.line,
+                                     error.description())));
+  }
+}
+
+std::string OptionText(const TableReader& table, std::string_view key, const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* number = node.as_floating_point()) {
+    if (!std::isfinite(number->get())) table.Refuse(key, fmt::format("is {}; give a finite number", number->get()));
+    return fmt::format("{}", number->get());
+  }
+  const toml::array* pair = node.as_array();
+  if (pair != nullptr && pair->size() == 2 && pair->get(0)->is_integer() && pair->get(1)->is_integer()) {
+    return fmt::format("{}x{}", pair->get(0)->as_integer()->get(), pair->get(1)->as_integer()->get());
+  }
+  table.Refuse(key, fmt::format("is {}; give a number, a text, true or false, or a pair of integers", TypeName(node)));
+}
+
+}  // namespace nscdd

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nscdd/platform_adapter.h"
+#include "nscdd/report.h"
+#include "nscdd/vector.h"
+#include "scene/scene.h"
+#include "tradeoff/setting.h"
+
+namespace nscdd {
+
+/// How a step ended; beside SolveStatus: kFixed, which did the iterations that it was asked for and tests nothing.
+enum class StepStatus { kConverged, kFixed, kIncomplete, kIterationLimit, kStalled, kDiverged };
+
+/// What a step cost beside seconds, and what its solver says of it.
+struct Effort {
+  StepStatus status = StepStatus::kFixed;
+  std::string reason;
+  double reported_nat = -1.0;       ///< [-] by the solver itself; < 0: it does not say
+  std::int64_t sweeps = 0;          ///< passes over the contacts
+  std::int64_t exchanges = 0;       ///< among neighbouring subdomains: interface updates and conjugate gradient iterations
+  std::int64_t exchange_bytes = 0;  ///< in them, were every subdomain a rank: each copy of an interface body sends its velocity
+};
+
+/// `fixed`: the setting asks for a number of iterations, so reaching it is no failure.
+Effort EffortOf(const SolveReport& report, bool fixed);
+const char* NameOf(StepStatus status);
+
+/// Bodies of a scene in a host at the first step, and something that moves them.
+class Contestant {
+ public:
+  virtual ~Contestant() = default;
+  virtual PlatformAdapter& adapter() = 0;
+  virtual void SetGravity(Vec2 gravity) = 0;
+  /// One step of `dt` [s]: this is what is timed.
+  virtual void Step(double dt) = 0;
+  virtual Effort LastEffort() const = 0;
+  /// Whether the next steps keep their impulses; costs time.
+  virtual void KeepImpulses(bool keep) = 0;
+  /// Of the last step, by contact key; pairs that are not there had none.
+  virtual const std::map<ContactKey, Vec2>& impulses() = 0;
+};
+
+/// A solver of the plugin on the platform `adapter`; `stepping`: options that every setting shares.
+std::unique_ptr<Contestant> MakePluginContestant(const Scene& scene, const std::string& adapter, const SolverRegistry& registry,
+                                                 const Setting& setting);
+
+/// b2World::Step, sleeping off, warm starting on. Throws Error unless Box2dCanRun().
+std::unique_ptr<Contestant> MakeBox2dContestant(const Scene& scene, const Setting& setting, bool continuous = true);
+
+/// Empty, or why Box2D's own solver is no comparison here: it has no period, and its lengths suit grains of 0.1 to 10 m.
+std::string WhyNotBox2d(const Scene& scene);
+
+}  // namespace nscdd

@@ -1,0 +1,68 @@
+#include "tradeoff/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace nscdd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_ptr<View>> views, int repetitions, double seconds,
+                         MeasurementEvents events)
+    : settings_(std::move(settings)), views_(std::move(views)), repetitions_(repetitions), events_(std::move(events)) {
+  for (const Setting& setting : settings_) {
+    for (const auto& view : views_) {
+      if (view->Takes(setting)) pairs_.push_back({&setting, view.get(), {}});
+    }
+  }
+  share_ = seconds / static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
+}
+
+std::int64_t Measurement::ticks() const { return static_cast<std::int64_t>(pairs_.size()) * (1 + repetitions_); }
+
+void Measurement::MeasurePair(Pair* pair) {
+  const Clock::time_point start = Clock::now();
+  const auto stop = [&] { return events_.interrupted() || SecondsSince(start) > share_; };
+  TradeoffRow row = pair->view->Measure(*pair->setting, &pair->timings, stop);
+  pair->timings.Fill(&row);
+  pair->used = SecondsSince(start);
+  pair->row = rows_.size();
+  pair->done = row.status == "cut" || row.status == "failed";
+  rows_.push_back(row);
+  events_.measured(row);
+  events_.tick(fmt::format("{}: {}", row.view, row.setting.name), !row.is_sound());
+}
+
+void Measurement::TimePair(Pair* pair) {
+  const Clock::time_point start = Clock::now();
+  pair->done = pair->done || pair->used + pair->timings.LastTotal() > share_;
+  if (!pair->done) {
+    pair->view->Time(*pair->setting, &pair->timings, events_.interrupted);
+    pair->used += SecondsSince(start);
+    pair->timings.Fill(&rows_[pair->row]);
+  }
+  events_.tick(fmt::format("{}: {}", rows_[pair->row].view, rows_[pair->row].setting.name), false);
+}
+
+void Measurement::Run() {
+  for (Pair& pair : pairs_) {
+    if (events_.interrupted()) return;
+    MeasurePair(&pair);
+  }
+  for (int pass = 0; pass < repetitions_; ++pass) {
+    for (Pair& pair : pairs_) {
+      if (events_.interrupted()) break;
+      TimePair(&pair);
+    }
+    events_.timed(rows_);
+    if (events_.interrupted()) return;
+  }
+}
+
+}  // namespace nscdd

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "tradeoff/contestant.h"
+#include "tradeoff/plan.h"
+
+namespace nscdd {
+
+/// A step of the reference trajectory whose problem the settings solve too.
+struct RecordedStep {
+  std::int64_t step = 0;
+  StepProblem problem;
+  std::vector<Vec2> warm;  ///< impulses of the reference's step before, by row of the contacts
+  Answer answer;           ///< the reference's
+  double observable = 0.0;
+};
+
+/// The scene's first steps, solved as exactly as the plugin can, and what they are compared with.
+struct ReferenceRun {
+  Setting setting;                  ///< that was used
+  std::vector<RecordedStep> steps;  ///< recorded ones
+  std::vector<double> observable;   ///< at the end of every step
+  std::vector<double> nat;          ///< of every step, as measured here
+  std::vector<double> nat_max;
+  std::int64_t not_converged = 0;
+  double seconds = 0.0;             ///< that it took
+};
+
+/// `newton` where the plugin has it, else `nscd`, accelerated if it can be; `contacts` bounds the iterations.
+Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts);
+
+/// Runs `setting` from the scene's start; fewer steps when `stop` says so (one at least). Throws Error when the residual measured
+/// here is not the one that the solver reports: the problem would not be the one that was solved.
+ReferenceRun RecordReference(const Plan& plan, const Setting& setting, const StopQuestion& stop,
+                             const std::function<void(std::int64_t, double)>& progress);
+
+/// The host's bodies at the end of a step and the impulses by row of the problem's contacts.
+struct StepEnd {
+  Answer answer;
+  std::vector<Pose> pose;
+};
+StepEnd ReadStepEnd(Contestant* contestant, const StepProblem& problem);
+
+}  // namespace nscdd

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "scene/platform.h"
+#include "tradeoff/reference_run.h"
+#include "tradeoff/tradeoff_row.h"
+
+namespace nscdd {
+
+/// A way to look at settings: what they do to the scene, and how long it takes.
+class View {
+ public:
+  virtual ~View() = default;
+  virtual const char* name() const = 0;
+  /// Whether the setting says anything here.
+  virtual bool Takes(const Setting& setting) const = 0;
+  /// Steps through once, measuring and timing. A failure of the solver becomes a row that says so.
+  virtual TradeoffRow Measure(const Setting& setting, Timings* timings, const StopQuestion& stop) = 0;
+  /// Steps through once more for the time alone; leaves no trace when stopped.
+  virtual void Time(const Setting& setting, Timings* timings, const StopQuestion& stop) = 0;
+};
+
+/// Each setting solves the recorded problems, from the impulses of the reference's step before (or from zero). Timed: the solve alone
+/// (building its arrays included). Box2D is not here: it has no contact while a gap is positive, and an accurate run leaves half of
+/// them so, by rounding.
+class ProblemsView final : public View {
+ public:
+  ProblemsView(const Plan& plan, const ReferenceRun& reference);
+  const char* name() const override { return "problems"; }
+  bool Takes(const Setting& setting) const override { return setting.substeps == 1 && !setting.is_box2d(); }
+  TradeoffRow Measure(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
+  void Time(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
+
+ private:
+  const Plan& plan_;
+  const ReferenceRun& reference_;
+  std::unique_ptr<Platform> geometry_;  ///< the scene's bodies: finds the contacts at any poses
+};
+
+/// Each setting runs the scene from its start on its own trajectory. Timed: whole steps, detection included, CPU time of the process.
+class RunsView final : public View {
+ public:
+  RunsView(const Plan& plan, const ReferenceRun& reference) : plan_(plan), reference_(reference) {}
+  const char* name() const override { return "runs"; }
+  bool Takes(const Setting&) const override { return true; }
+  TradeoffRow Measure(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
+  void Time(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
+
+ private:
+  std::unique_ptr<Contestant> Make(const Setting& setting) const;
+  double MeasureStep(std::int64_t step, Contestant* contestant, const Setting& setting, RowBuilder* row) const;
+
+  const Plan& plan_;
+  const ReferenceRun& reference_;
+};
+
+}  // namespace nscdd

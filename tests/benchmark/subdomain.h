@@ -1,0 +1,11 @@
+#pragma once
+
+#include "problem/subdomain_problem.h"
+#include "tradeoff/step_problem.h"
+
+namespace nscdd::benchmark {
+
+/// All contacts of a step's problem as one subdomain, in their order; built by the core's own parts outside of the TimeStepper.
+SubdomainProblem BuildSubdomain(const StepProblem& step);
+
+}  // namespace nscdd::benchmark
