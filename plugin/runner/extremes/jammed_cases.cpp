@@ -61,6 +61,7 @@ std::vector<ExtremeCase> JammedCases() {
       cases.push_back(Make(fmt::format("wedge of {:g} degrees, mu {:g}", angle, mu),
                            [=](reference::World* w) { BuildWedge(radians, mu, w); }, angle == 85.0));
       cases.back().extent = 0.5 / std::cos(radians);
+      cases.back().amplification = 1.0 / std::cos(radians);
     }
   }
   for (const double mu : {0.0, 0.5}) {

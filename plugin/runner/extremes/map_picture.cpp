@@ -10,7 +10,7 @@
 namespace nscdd {
 namespace {
 
-constexpr int kRow = 17, kColumn = 96, kNames = 330, kTop = 60, kFont = 11, kLegend = 90;
+constexpr int kRow = 17, kColumn = 108, kNames = 330, kTop = 60, kFont = 11, kLegend = 90;
 constexpr int kSmallest = -14;  // decades of the colour scale: 1e-14 to 1
 
 /// Bright where the error is small.

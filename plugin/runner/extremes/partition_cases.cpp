@@ -38,6 +38,7 @@ std::vector<ExtremeCase> PartitionCases() {
     cases.push_back(Make("lambda", fmt::format("pile, lambda {:g}", lambda), "2x2", {.friction = 0.3}));
     cases.back().options = {{"lambda", fmt::format("{}", lambda)}};
     cases.back().only_with = "lambda";
+    cases.back().lambda = lambda;
     cases.back().quick = lambda == 0.0 || lambda >= 1e8;
   }
   for (const char* grid : {"1x1", "1x4", "1x40", "40x40"}) {

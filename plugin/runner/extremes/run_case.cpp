@@ -113,7 +113,7 @@ class CaseRun {
       momentum = momentum + body.mass * (Linear(body.velocity) - Linear(free));
       energy += KineticEnergy(body, body.velocity) - KineticEnergy(body, free);
       scale += KineticEnergy(body, free) + KineticEnergy(body, {case_.scale, 0.0, 0.0});
-      impulses += body.mass * (std::abs(free.vx) + std::abs(free.vy));
+      impulses += body.mass * (std::abs(free.vx) + std::abs(free.vy) + case_.scale);
     }
     const TableView contacts = solver_.Table("contacts");
     for (std::size_t c = 0; c < contacts.rows(); ++c) {
@@ -171,12 +171,13 @@ Reference SolveTightly(const ExtremeCase& c, const SolverRegistry& registry) {
 }
 
 void Judge(const ExtremeCase& c, double reference, Outcome* o) {
-  // A residual of `tolerance` at every contact adds up along a chain; gaps carry the rounding of the coordinates.
+  // What the criterion promises at a contact, in units of the scale, adds up along a chain; gaps carry the rounding of the coordinates.
   const double count = std::max<double>(1.0, static_cast<double>(o->contacts));
+  const double promise = c.criterion == "nat" ? std::min(0.1, 1e3 * c.tolerance) : 10.0 * (c.tolerance + reference);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + c.extent / (c.dt * c.scale));
-  o->bound = count * (10.0 * c.tolerance + 10.0 * reference + rounding * c.steps);
+  o->bound = count * c.amplification * (promise + rounding * c.steps);
   const bool finite = std::isfinite(o->error) && std::isfinite(o->momentum) && std::isfinite(o->energy);
-  const bool balanced = o->momentum <= 1e-12 * count;
+  const bool balanced = o->momentum <= 1e-15 * (1e3 + c.lambda + count * static_cast<double>(o->iterations));
   const bool fed = o->status == "converged" && o->energy > o->bound;
   if (!finite || !balanced || fed) {
     o->verdict = Verdict::kBroken;

@@ -26,7 +26,7 @@ struct Outcome {
   std::string sentence;    ///< why it stopped, and what the host should know
   double error = 0.0;      ///< [-] largest of |dV_x|, |dV_y|, R |dspin| of free bodies at the end, over the scale
   double bound = 0.0;      ///< [-] what tolerance, number of contacts and rounding of the coordinates allow
-  double momentum = 0.0;   ///< [-] of a step: | sum m (V - V_f) - impulses of the walls | over the sum of all impulses
+  double momentum = 0.0;   ///< [-] of a step: | sum m (V - V_f) - impulses of the walls | over the sum of all momenta and impulses
   double energy = 0.0;     ///< [-] kinetic energy above that of the free velocities, over the scale's (no restitution law makes it)
   double nat = 0.0;
   double nat_max = 0.0;

@@ -34,7 +34,7 @@ struct Pile {
   double other_friction = -1.0;   ///< of the remaining grains; negative: the same
   double spacing = 1.0;           ///< below 1 the grains overlap
   bool right_wall = true;         ///< without it the pile begins to flow
-  Vec2 origin;                    ///< [m] lower left corner
+  Vec2 origin = {};               ///< [m] lower left corner
   double largest_velocity = 0.0;  ///< [m/s] of random first velocities
 };
 void BuildPile(const Pile& pile, reference::World* world);
