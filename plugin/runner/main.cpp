@@ -1,5 +1,5 @@
 // The program `nscdd`. Exit codes: 0 fine; 2 bad input; 3 stopped because a step did not converge and the scene says to stop;
-// 1 anything that no input should cause.
+// 1 anything that no input should cause, such as a solver that `extremes` finds wrong without a word.
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 
 #include "commands/check.h"
 #include "commands/export.h"
+#include "commands/extremes.h"
 #include "commands/run.h"
 #include "commands/solve.h"
 #include "commands/solvers.h"
@@ -65,6 +66,7 @@ class Program {
     AddTradeoff();
     AddRender();
     AddValidate();
+    AddExtremes();
   }
 
   int Main(int argc, char** argv) {
@@ -205,6 +207,15 @@ class Program {
     });
   }
 
+  void AddExtremes() {
+    CLI::App* extremes = app_.add_subcommand("extremes", "Map where each solver holds: scenes at the edges, with a known truth");
+    extremes->add_option("--plugin", extremes_.plugin, "Solver plugin");
+    extremes->add_option("--solvers", extremes_.solvers, "Only these, such as nscd,nscdd/anderson,newton")->delimiter(',');
+    extremes->add_option("--out", extremes_.out, "Folder of extremes.csv and extremes.png")->capture_default_str();
+    extremes->add_flag("--quick", extremes_.quick, "Fewer cases and iterations");
+    OnRoot(extremes, [this] { return Extremes(extremes_); });
+  }
+
   const MpiSession& session_;
   CLI::App app_{"nscdd: contact dynamics of dense packings of disks, by domain decomposition"};
   RunRequest run_;
@@ -212,6 +223,7 @@ class Program {
   TradeoffRequest tradeoff_;
   RenderRequest render_;
   std::string show_ = "forces";
+  ExtremesRequest extremes_;
   std::string validated_;
   std::function<int()> action_;
 };

@@ -21,7 +21,7 @@ enum class SolveStatus {
 /// Natural residuals of the global problem at the end, and what the last tested sweep changed. Definitions: residual.h.
 struct Residuals {
   double nat = 0.0;              ///< [-]
-  double nat_max = 0.0;          ///< [-] in units of max(|f| dt / m, approach speed)
+  double nat_max = 0.0;          ///< [-] in units of max(|f| dt / m, approach speed, recovery speed)
   double quad = 0.0;             ///< [-] max(QuadDV, QuadDVR)
   double maxm = 0.0;             ///< [-] max(MaxmDV, MaxmDVR)
   double qm16 = 0.0;             ///< [-] max(quad, maxm / 16.666)

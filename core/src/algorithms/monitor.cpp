@@ -15,6 +15,10 @@
 namespace nscdd {
 namespace {
 
+/// nat is a mean over the impulses: what light bodies do under heavy ones is lost in it, and is said aloud.
+constexpr double kUneven = 1e3;          // nat_max over the tolerance of nat
+constexpr double kUnevenAtMost = 0.1;    // of the scale of nat_max
+
 const char* Name(Criterion criterion) {
   constexpr std::array<const char*, 5> kNames{"nat", "nat_max", "quad", "maxm", "qm16"};
   return kNames[static_cast<std::size_t>(criterion)];
@@ -94,6 +98,16 @@ double Monitor::CriterionNow() const {
   return std::max(measure, r.relative_jump);
 }
 
+std::string Monitor::ReasonOfSuccess() const {
+  std::string reason = fmt::format("{} is below the tolerance {:.3g}", Name(options_.criterion), options_.tolerance);
+  const double worst = report_.residuals.nat_max;
+  if (options_.criterion != Criterion::kNatMax && worst > std::min(kUnevenAtMost, kUneven * options_.tolerance)) {
+    reason += fmt::format("; WARNING: the worst contact is off by {:.2g} of the free-fall or approach speed: criterion nat_max sees it",
+                          worst);
+  }
+  return reason;
+}
+
 void Monitor::KeepBest(const PartitionedState& state) {
   if (!keep_best_) return;
   best_residuals_ = report_.residuals;
@@ -126,7 +140,7 @@ void Monitor::Conclude(bool subdomains_converged) {
   const double measure = CriterionNow();
   const char* name = Name(options_.criterion);
   if (measure <= options_.tolerance) {
-    Stop(SolveStatus::kConverged, fmt::format("{} is below the tolerance {:.3g}", name, options_.tolerance));
+    Stop(SolveStatus::kConverged, ReasonOfSuccess());
   } else if (!std::isfinite(measure)) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {}", name, measure));
   } else if (subdomains_converged) {
@@ -155,7 +169,7 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
     return true;
   }
   if (measure <= options_.tolerance) {
-    Stop(SolveStatus::kConverged, fmt::format("{} is below the tolerance {:.3g}", name, options_.tolerance));
+    Stop(SolveStatus::kConverged, ReasonOfSuccess());
     return true;
   }
   if (measure < best_) {

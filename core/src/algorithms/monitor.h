@@ -45,6 +45,7 @@ class Monitor {
                   const PartitionedState& state);
   void Stop(SolveStatus status, std::string reason);
   double CriterionNow() const;
+  std::string ReasonOfSuccess() const;
   void KeepBest(const PartitionedState& state);
   void RestoreBest(PartitionedState* state);
   void SetZero(PartitionedState* state) const;

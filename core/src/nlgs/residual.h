@@ -12,7 +12,7 @@ namespace nscdd {
 /// Scales of the residuals; properties of the whole problem, the same on all ranks.
 struct ResidualScales {
   double impulse = 0.0;   ///< ||dt f||_2 over free bodies, translations [N s]
-  double velocity = 0.0;  ///< max(largest |f| dt / m, largest approach speed) [m/s]
+  double velocity = 0.0;  ///< max(largest |f| dt / m, largest approach speed, largest -b_n) [m/s]
   double energy = 0.0;    ///< sum of |dt f|^2 / m [J]
 };
 

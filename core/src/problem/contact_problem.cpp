@@ -85,6 +85,7 @@ ResidualScales Scales(const ContactProblem& p) {
   }
   s.impulse = std::sqrt(sum);
   s.velocity = std::max(s.velocity, p.approach_speed);
+  for (const double offset : p.offset) s.velocity = std::max(s.velocity, -offset);  // speeds of recovery
   return s;
 }
 

@@ -327,7 +327,8 @@ void TimeStepper::Impl::ReduceScales(double dt) {
   }
   for (std::size_t e = 0; e < chosen_.size(); ++e) {
     parts[e][2] = static_cast<double>(chosen_[e].size());
-    for (const std::int32_t c : chosen_[e]) parts[e][7] = std::max(parts[e][7], -approach_[c]);
+    // A negative offset asks for a speed too: that of recovery.
+    for (const std::int32_t c : chosen_[e]) parts[e][7] = std::max({parts[e][7], -approach_[c], -offset_[c]});
   }
   const ContactModel mine =
       RequiredModel({inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_});

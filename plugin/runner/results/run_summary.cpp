@@ -121,9 +121,15 @@ std::string Warnings(const RunSummary& s) {
   }
   if (s.steps_beyond_alert > 0) {
     text += fmt::format(
-        "FAST BODIES: in {} a body moved by more than the alert distance, contacts may have been missed: "
-        "choose a smaller time step or a larger alert distance\n",
+        "FAST BODIES: in {} a body moved by more than the alert distance or the mean radius, contacts may have been missed: "
+        "choose a smaller time step, or up to a radius a larger alert distance\n",
         Plural(s.steps_beyond_alert, "step"));
+  }
+  if (s.uneven_steps > 0) {
+    text += fmt::format(
+        "UNEVEN: in {} the criterion was met while a contact was off by more than half the free-fall or approach speed "
+        "(nat_max up to {:.2g}): choose criterion nat_max where light bodies carry heavy ones\n",
+        Plural(s.uneven_steps, "step"), s.max_nat_max);
   }
   if (s.painleve_contacts > 0) {
     text += fmt::format("PAINLEVE: {} without a unique solution (friction too large for the shapes)\n",
@@ -151,7 +157,9 @@ void RunSummary::Add(const StepRow& row) {
   max_interpenetration = WorstOf(max_interpenetration, row.max_interpenetration);
   max_jump = WorstOf(max_jump, row.interface_jump);
   injected_energy += row.injected_energy;
-  if (row.max_drift > row.alert_distance) ++steps_beyond_alert;
+  // Beyond a radius a thin wall may lie behind the body when contacts are sought, whatever the alert distance.
+  if (row.max_drift > std::min(row.alert_distance, row.mean_radius)) ++steps_beyond_alert;
+  if (row.status == "converged" && row.nat_max > 0.5) ++uneven_steps;
   painleve_contacts += row.painleve_contacts;
   migrated_bodies += row.migrated_bodies;
   messages += row.messages;

@@ -48,7 +48,8 @@ struct RunSummary {
   double max_interpenetration = 0.0;
   double max_jump = 0.0;
   double injected_energy = 0.0;
-  std::int64_t steps_beyond_alert = 0;  ///< max_drift > alert_distance
+  std::int64_t steps_beyond_alert = 0;  ///< max_drift > min(alert_distance, mean_radius)
+  std::int64_t uneven_steps = 0;        ///< converged, nat_max > 1/2
   std::int64_t painleve_contacts = 0;
   std::int64_t migrated_bodies = 0;
   std::int64_t messages = 0;

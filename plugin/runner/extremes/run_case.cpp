@@ -1,0 +1,221 @@
+#include "extremes/run_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "nscdd/error.h"
+#include "nscdd/host/adapter_host.h"
+#include "nscdd/reference/reference_adapter.h"
+
+namespace nscdd {
+namespace {
+
+using Velocities = std::map<std::int64_t, Twist>;
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
+/// Larger of the two; not a number if one of them is not.
+double WorstOf(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+std::string Name(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kStalled:
+      return "stalled";
+    case SolveStatus::kIncomplete:
+      return "incomplete";
+    case SolveStatus::kDiverged:
+      break;
+  }
+  return "diverged";
+}
+
+/// Options of the case and of the column, those that the solver has.
+OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver, const RunLimits& limits) {
+  OptionList all = column.options;
+  all.insert(all.end(), c.options.begin(), c.options.end());
+  all.emplace_back("subdomains", c.subdomains);
+  all.emplace_back("criterion", c.criterion);
+  all.emplace_back("tolerance", fmt::format("{}", c.tolerance));
+  if (column.solver != "newton") all.emplace_back("max_iterations", fmt::format("{}", limits.max_iterations));
+  if (column.solver == "newton" && c.tolerance < 1e-7) all.emplace_back("interior_residual", "1e-5");
+  std::erase_if(all, [&](const auto& option) { return FindOption(solver, option.first) == nullptr; });
+  return all;
+}
+
+Velocities FreeVelocities(const reference::World& world) {
+  Velocities velocities;
+  for (const reference::Body& body : world.bodies()) {
+    if (body.kind == BodyKind::kFree) velocities[body.id] = body.velocity;
+  }
+  return velocities;
+}
+
+double KineticEnergy(const reference::Body& body, const Twist& v) {
+  return 0.5 * (body.mass * (v.vx * v.vx + v.vy * v.vy) + body.inertia * v.spin * v.spin);
+}
+
+/// One case with one solver.
+class CaseRun {
+ public:
+  CaseRun(const ExtremeCase& c, const SolverRegistry& registry, const std::string& solver, const OptionList& options)
+      : case_(c), adapter_(&world_), host_(&adapter_), solver_(registry.Create({solver, options, host_.table(), {}})) {
+    c.build(&world_);
+  }
+
+  /// Error is filled by the caller, who knows the truth.
+  Outcome Run() {
+    for (int k = 0; k < case_.steps; ++k) {
+      const Velocities before = FreeVelocities(world_);
+      solver_.Step(case_.dt);
+      ReadReport(solver_.Report());
+      CheckBalance(before);
+    }
+    return outcome_;
+  }
+
+  const reference::World& world() const { return world_; }
+
+ private:
+  void ReadReport(const StepReport& report) {
+    const SolveReport& solve = report.solve;
+    outcome_.iterations = std::max<std::int64_t>(outcome_.iterations, solve.iterations);
+    outcome_.contacts = std::max(outcome_.contacts, solve.contacts);
+    outcome_.nat = WorstOf(outcome_.nat, solve.residuals.nat);
+    outcome_.nat_max = WorstOf(outcome_.nat_max, solve.residuals.nat_max);
+    if (outcome_.status.empty() || solve.status != SolveStatus::kConverged) {
+      outcome_.status = Name(solve.status);
+      outcome_.sentence = solve.reason;
+    }
+    if (report.max_drift > std::min(report.alert_distance, report.mean_radius)) {
+      outcome_.sentence += fmt::format("; WARNING: a body moved by {:.3g} m in step {}, contacts may have been missed",
+                                       report.max_drift, report.step);
+    }
+    // The core's own word on a criterion that does not see everything.
+    warned_ = warned_ || outcome_.sentence.find("WARNING") != std::string::npos;
+    outcome_.verdict = outcome_.status == "converged" && !warned_ ? Verdict::kHolds : Verdict::kLimit;
+  }
+
+  /// Momentum and energy of the last step against the free velocities V_f = V + dt M^-1 f.
+  void CheckBalance(const Velocities& before) {
+    Vec2 momentum{};
+    double impulses = 0.0, energy = 0.0, scale = 0.0;
+    for (const auto& [id, v] : before) {
+      const reference::Body& body = *world_.Find(id);
+      const Twist free{v.vx + case_.dt * world_.gravity.x, v.vy + case_.dt * world_.gravity.y, v.spin};
+      momentum = momentum + body.mass * (Linear(body.velocity) - Linear(free));
+      energy += KineticEnergy(body, body.velocity) - KineticEnergy(body, free);
+      scale += KineticEnergy(body, free) + KineticEnergy(body, {case_.scale, 0.0, 0.0});
+      impulses += body.mass * (std::abs(free.vx) + std::abs(free.vy) + case_.scale);
+    }
+    const TableView contacts = solver_.Table("contacts");
+    for (std::size_t c = 0; c < contacts.rows(); ++c) {
+      const Vec2 n{contacts.Real("normal_x")[c], contacts.Real("normal_y")[c]};
+      const double rn = contacts.Real("impulse_n")[c], rt = contacts.Real("impulse_t")[c];
+      const Vec2 r = rn * n + rt * Vec2{n.y, -n.x};
+      impulses += std::abs(rn) + std::abs(rt);
+      if (before.count(contacts.Integer("body_a")[c]) == 0) momentum = momentum - r;
+      if (before.count(contacts.Integer("body_b")[c]) == 0) momentum = momentum + r;
+    }
+    if (impulses > 0.0) outcome_.momentum = WorstOf(outcome_.momentum, Norm(momentum) / impulses);
+    if (scale > 0.0 && !case_.feeds_energy) outcome_.energy = WorstOf(outcome_.energy, energy / scale);
+  }
+
+  const ExtremeCase& case_;
+  reference::World world_;
+  reference::ReferenceAdapter adapter_;
+  AdapterHost host_;
+  Solver solver_;
+  Outcome outcome_;
+  bool warned_ = false;
+};
+
+double ErrorOf(const reference::World& world, const std::function<Twist(std::int64_t)>& truth, double scale) {
+  double error = 0.0;
+  for (const reference::Body& body : world.bodies()) {
+    if (body.kind != BodyKind::kFree) continue;
+    const Twist expected = truth(body.id);
+    const double spin = body.disks.front().radius * (body.velocity.spin - expected.spin);
+    for (const double part : {body.velocity.vx - expected.vx, body.velocity.vy - expected.vy, spin}) {
+      error = WorstOf(error, std::abs(part) / scale);
+    }
+  }
+  return error;
+}
+
+/// The velocities of the tightest solution that the plugin finds, and its nat_max.
+struct Reference {
+  Velocities velocity;
+  double nat_max = std::numeric_limits<double>::infinity();
+};
+
+Reference SolveTightly(const ExtremeCase& c, const SolverRegistry& registry) {
+  Reference best;
+  ExtremeCase tight = c;
+  tight.criterion = "nat_max";
+  tight.tolerance = 1e-13;
+  for (const SolverColumn& column : {SolverColumn{"", "newton", {}}, SolverColumn{"", "nscd", {{"acceleration", "anderson"}}}}) {
+    const nscdd_solver_info& solver = *registry.Find(column.solver).info;
+    CaseRun run(tight, registry, column.solver, OptionsFor(tight, column, solver, {200000}));
+    const Outcome outcome = run.Run();
+    if (outcome.nat_max < best.nat_max) best = {FreeVelocities(run.world()), outcome.nat_max};
+  }
+  return best;
+}
+
+void Judge(const ExtremeCase& c, double reference, Outcome* o) {
+  // What the criterion promises at a contact, in units of the scale, adds up along a chain; gaps carry the rounding of the coordinates.
+  const double count = std::max<double>(1.0, static_cast<double>(o->contacts));
+  const double promise = c.criterion == "nat" ? std::min(0.1, 1e3 * c.tolerance) : 10.0 * (c.tolerance + reference);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + c.extent / (c.dt * c.scale));
+  o->bound = count * c.amplification * (promise + rounding * c.steps);
+  const bool finite = std::isfinite(o->error) && std::isfinite(o->momentum) && std::isfinite(o->energy);
+  const bool balanced = o->momentum <= 1e-15 * (1e3 + c.lambda + count * static_cast<double>(o->iterations));
+  const bool fed = o->status == "converged" && o->energy > o->bound;
+  if (!finite || !balanced || fed) {
+    o->verdict = Verdict::kBroken;
+  } else if (o->error <= o->bound) {
+    o->verdict = Verdict::kHolds;
+  } else if (o->verdict == Verdict::kHolds) {
+    o->verdict = Verdict::kSilent;
+  }
+}
+
+Outcome RunOne(const ExtremeCase& c, const SolverColumn& column, const SolverRegistry& registry, const RunLimits& limits,
+               const std::optional<Reference>& reference) {
+  const nscdd_solver_info& solver = *registry.Find(column.solver).info;
+  Outcome outcome;
+  if (!c.only_with.empty() && FindOption(solver, c.only_with) == nullptr) return outcome;
+  try {
+    CaseRun run(c, registry, column.solver, OptionsFor(c, column, solver, limits));
+    outcome = run.Run();
+    const std::function<Twist(std::int64_t)> tight = [&](std::int64_t id) { return reference->velocity.at(id); };
+    outcome.error = ErrorOf(run.world(), reference ? tight : c.truth, c.scale);
+    Judge(c, reference ? reference->nat_max : 0.0, &outcome);
+  } catch (const Error& e) {
+    outcome.verdict = Verdict::kRefused;
+    outcome.status = "refused";
+    outcome.sentence = e.what();
+  }
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<Outcome> RunCase(const ExtremeCase& c, const std::vector<SolverColumn>& columns, const SolverRegistry& registry,
+                             const RunLimits& limits) {
+  std::optional<Reference> reference;
+  if (!c.truth) reference = SolveTightly(c, registry);
+  std::vector<Outcome> row;
+  for (const SolverColumn& column : columns) row.push_back(RunOne(c, column, registry, limits, reference));
+  return row;
+}
+
+}  // namespace nscdd
