@@ -65,7 +65,8 @@ void TimeRun(const Entry& entry, const Race& race, Record* record) {
 }
 
 /// Residuals of a step's answer on our contacts, on all of them and on those only that the contestant reported.
-void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>& impulses, const Answer& answer, Record* record) {
+void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>& impulses, const Answer& answer,
+                    Record* record) {
   std::vector<bool> is_reported;
   double reported = 0.0, active = 0.0, matched = 0.0;
   for (const ContactKey& key : problem.keys) {
@@ -77,7 +78,8 @@ void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>
     reported += 1.0;
     active += r.x > 0.0;
   }
-  const AnswerResiduals all = MeasureAnswer(problem.problem, answer), on_reported = MeasureAnswer(problem.problem, answer, is_reported);
+  const AnswerResiduals all = MeasureAnswer(problem.problem, answer),
+                        on_reported = MeasureAnswer(problem.problem, answer, is_reported);
   record->nat.push_back(all.nat);
   record->nat_max.push_back(all.nat_max);
   record->nat_on_reported.push_back(on_reported.nat);
@@ -92,8 +94,10 @@ void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>
 /// The yardstick, put to an answer whose residual the core has measured itself.
 void CheckAgainstReport(double measured, double reported, std::int64_t step) {
   if (reported < 0.0 || std::abs(measured - reported) <= 1e-6 * reported + 1e-12) return;
-  throw Error(fmt::format("step {}: nat is {} here and {} in the solver's report; tradeoff/answer_residuals.cpp must measure what the "
-                          "core measures.", step, measured, reported));
+  throw Error(
+      fmt::format("step {}: nat is {} here and {} in the solver's report; tradeoff/answer_residuals.cpp must measure what the "
+                  "core measures.",
+                  step, measured, reported));
 }
 
 void MeasureRun(const Entry& entry, const Race& race, Record* record) {
@@ -121,9 +125,9 @@ void PrintCost(const std::vector<Entry>& entries, const std::vector<Record>& rec
   fmt::print("| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Record& r = records[i];
-    fmt::print("| {} | {:.2f} | {:.2f} .. {:.2f} | {:.0f} | {:.1e} | {:.1e} |\n", entries[i].setting.name, Median(r.milliseconds),
-               *std::min_element(r.milliseconds.begin(), r.milliseconds.end()), Max(r.milliseconds), Mean(r.sweeps),
-               Mean(r.mean_interpenetration), Max(r.max_interpenetration));
+    fmt::print("| {} | {:.2f} | {:.2f} .. {:.2f} | {:.0f} | {:.1e} | {:.1e} |\n", entries[i].setting.name,
+               Median(r.milliseconds), *std::min_element(r.milliseconds.begin(), r.milliseconds.end()), Max(r.milliseconds),
+               Mean(r.sweeps), Mean(r.mean_interpenetration), Max(r.max_interpenetration));
   }
 }
 
@@ -143,18 +147,23 @@ void PrintResiduals(const std::vector<Entry>& entries, const std::vector<Record>
 }
 
 Entry Box2d(int velocity, int position, bool continuous = true) {
-  return {{fmt::format("Box2D {}/{}{}", velocity, position, continuous ? "" : ", not continuous"), "box2d",
+  return {{fmt::format("Box2D {}/{}{}", velocity, position, continuous ? "" : ", not continuous"),
+           "box2d",
            {{"velocity_iterations", fmt::format("{}", velocity)}, {"position_iterations", fmt::format("{}", position)}}},
           continuous};
 }
 Entry Sweeps(const std::string& count) {
-  return {{"nscd, " + count + " sweeps", "nscd", {{"tolerance", "0"}, {"max_iterations", count}, {"test_every", count}}}};
+  return {{"nscd, " + count + " sweeps",
+           "nscd",
+           {{"acceleration", "none"}, {"tolerance", "0"}, {"max_iterations", count}, {"test_every", count}}}};
 }
-Entry Nat(const std::string& tolerance) { return {{"nscd, nat " + tolerance, "nscd", {{"tolerance", tolerance}}}}; }
+Entry Nat(const std::string& tolerance) {
+  return {{"nscd, nat " + tolerance, "nscd", {{"acceleration", "none"}, {"tolerance", tolerance}}}};
+}
 
 std::vector<Entry> Entries() {
-  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"), Sweeps("20"), Sweeps("50"),
-          Nat("1e-2"), Nat("1e-3"),        Nat("1e-4")};
+  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"),
+          Sweeps("20"), Sweeps("50"),       Nat("1e-2"),   Nat("1e-3"),   Nat("1e-4")};
 }
 
 void Compare(const Race& race, int runs) {
@@ -164,8 +173,8 @@ void Compare(const Race& race, int runs) {
     for (std::size_t i = 0; i < entries.size(); ++i) TimeRun(entries[i], race, &records[i]);
   }
   for (std::size_t i = 0; i < entries.size(); ++i) MeasureRun(entries[i], race, &records[i]);
-  fmt::print("{}: {} steps of {} s, {} interleaved runs from the same start, one thread, CPU time\n", race.scene.name, race.steps,
-             race.scene.time.dt, runs);
+  fmt::print("{}: {} steps of {} s, {} interleaved runs from the same start, one thread, CPU time\n", race.scene.name,
+             race.steps, race.scene.time.dt, runs);
   PrintCost(entries, records);
   PrintResiduals(entries, records);
 }

@@ -70,7 +70,8 @@ TEST(AutoWatcher, KeepsTheBudget) {
   for (int k = 0; k < 9; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kClimb);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 2e-3, true, true), Verdict::kDescend);
-  for (int k = 0; k < 30; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
+  for (int k = 0; k < 30; ++k)
+    EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
   EXPECT_EQ(watcher.escalations(), 1);
   EXPECT_EQ(watcher.descents(), 1);
   EXPECT_NE(watcher.Summary("x", "y").find("1 of 41 steps took longer"), std::string::npos);
@@ -126,13 +127,14 @@ TEST_F(AutoFront, SafeLadderBeginsCheapAndIsKnownToThePlugin) {
   EXPECT_EQ(many[4].solver, "nscdd");
   for (const Setting& rung : many) EXPECT_EQ(rung.Option("subdomains"), "2x3");
   for (const auto* ladder : {&one, &many}) {
-    for (const Setting& rung : *ladder) EXPECT_NO_THROW(registry_.Create({rung.solver, rung.options, nullptr, {}})) << rung.name;
+    for (const Setting& rung : *ladder)
+      EXPECT_NO_THROW(registry_.Create({rung.solver, rung.options, nullptr, {}})) << rung.name;
   }
 }
 
 TEST_F(AutoFront, BeginsWithTheCheapestThatServes) {
-  const std::vector<FrontEntry> front = {Entry("a", 1e-3, 1e-2, "2x2"), Entry("b", 2e-3, 1e-3, "4x4"), Entry("c", 3e-3, 5e-4, "2x2"),
-                                         Entry("d", 4e-3, 1e-4, "4x4")};
+  const std::vector<FrontEntry> front = {Entry("a", 1e-3, 1e-2, "2x2"), Entry("b", 2e-3, 1e-3, "4x4"),
+                                         Entry("c", 3e-3, 5e-4, "2x2"), Entry("d", 4e-3, 1e-4, "4x4")};
   const auto names = [&](const AutoSettings& wish, const std::string& grid, int ranks) {
     std::string text;
     for (const Setting& rung : MakeLadder(wish, grid, ranks, front, "f", registry_).rungs) text += rung.name.substr(0, 1);
@@ -140,11 +142,11 @@ TEST_F(AutoFront, BeginsWithTheCheapestThatServes) {
   };
   EXPECT_EQ(names(Depth(2e-2), "", 1).substr(0, 2), "ac");  // stays on one grid
   EXPECT_EQ(names(Depth(1e-3), "", 1).substr(0, 2), "bd");
-  EXPECT_EQ(names(Depth(1e-9), "", 1).substr(0, 1), "d");   // nothing so good
+  EXPECT_EQ(names(Depth(1e-9), "", 1).substr(0, 1), "d");  // nothing so good
   EXPECT_EQ(names(Depth(1e-3), "2x2", 1).substr(0, 1), "c");
   EXPECT_EQ(names(Depth(2e-2), "", 6).substr(0, 2), "bd");  // 2x2 is too few for six ranks
   EXPECT_EQ(names({{}, true, 2.5e-3}, "", 1).substr(0, 2), "bd");
-  EXPECT_EQ(names(Depth(1e-3), "", 1).substr(2), "nnn");    // then the built-in ones that converge
+  EXPECT_EQ(names(Depth(1e-3), "", 1).substr(2), "nnn");  // then the built-in ones that converge
   EXPECT_EQ(MakeLadder(Depth(1e-3), "3x3", 1, front, "f", registry_).origin, "safe defaults");
   EXPECT_EQ(MakeLadder(Depth(1e-3), "", 1, front, "f", registry_).origin, "f");
 }

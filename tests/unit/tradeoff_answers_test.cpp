@@ -50,8 +50,8 @@ TEST(StepProblem, ReadsFreeVelocityOffsetAndKeys) {
   const StepProblem p = Ground(0.01, 1.0).Read();
   ASSERT_EQ(p.keys.size(), 1u);
   EXPECT_EQ(p.keys[0], (ContactKey{0, 7, 0, 0, 0}));
-  EXPECT_NEAR(p.problem.contacts.gap[0], 0.005, 1e-15);       // at q + dt V / 2
-  EXPECT_NEAR(p.problem.offset[0], 0.5, 1e-12);               // gap / dt
+  EXPECT_NEAR(p.problem.contacts.gap[0], 0.005, 1e-15);  // at q + dt V / 2
+  EXPECT_NEAR(p.problem.offset[0], 0.5, 1e-12);          // gap / dt
   EXPECT_NEAR(p.problem.free_velocity[1].vy, -1.0 - kG * kDt, 1e-15);
   EXPECT_EQ(p.problem.approach_speed, 1.0);
   EXPECT_TRUE(std::isinf(p.problem.mass[0]));

@@ -140,7 +140,8 @@ StepMeasurement Solve(StepStatus status, double nat) {
 
 TEST(Rows, TellTheWorstStepAndMeasureInMeanRadii) {
   RowBuilder builder("runs", {"s", "nscd", {}}, 0.5);
-  for (const auto status : {StepStatus::kConverged, StepStatus::kIterationLimit, StepStatus::kConverged, StepStatus::kConverged}) {
+  for (const auto status :
+       {StepStatus::kConverged, StepStatus::kIterationLimit, StepStatus::kConverged, StepStatus::kConverged}) {
     builder.AddSolve(Solve(status, status == StepStatus::kConverged ? 1e-4 : 1e-2));
   }
   builder.AddStep({1e-3, 2e-3, 4e-3}, 1.0, 1.5);

@@ -34,7 +34,8 @@ class Line {
   const std::string& Text(const std::string& column) const {
     const auto at = std::find(header_.begin(), header_.end(), column) - header_.begin();
     if (static_cast<std::size_t>(at) < std::min(header_.size(), cells_.size())) return cells_[static_cast<std::size_t>(at)];
-    throw Error(fmt::format("{}: has no column '{}'; measure the front anew with `nscdd tradeoff --store`, or remove the file", where_, column));
+    throw Error(fmt::format("{}: has no column '{}'; measure the front anew with `nscdd tradeoff --store`, or remove the file",
+                            where_, column));
   }
 
   double Number(const std::string& column) const {
@@ -42,8 +43,8 @@ class Line {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value >= 0.0) return value;
-    throw Error(fmt::format("{}: column '{}' is '{}', no number >= 0; measure the front anew with `nscdd tradeoff --store`", where_,
-                            column, text));
+    throw Error(fmt::format("{}: column '{}' is '{}', no number >= 0; measure the front anew with `nscdd tradeoff --store`",
+                            where_, column, text));
   }
 
  private:
@@ -77,7 +78,8 @@ std::vector<FrontEntry> ReadFront(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string text;
   if (!stream || !std::getline(stream, text)) {
-    throw Error(fmt::format("{}: cannot be read or is empty; measure the front anew with `nscdd tradeoff --store`", file.string()));
+    throw Error(
+        fmt::format("{}: cannot be read or is empty; measure the front anew with `nscdd tradeoff --store`", file.string()));
   }
   const std::vector<std::string> header = Split(text, ',');
   std::vector<FrontEntry> entries;

@@ -18,8 +18,8 @@ struct FrontEntry {
 /// SCENE.front.csv for SCENE.toml.
 std::filesystem::path FrontFileOf(const std::filesystem::path& scene);
 
-/// In the order of the file: ascending in seconds. Columns solver, options, seconds, nat and interpenetration_max of tradeoff.csv; others are
-/// not read. Throws Error, naming file and line, when one is missing or no number.
+/// In the order of the file: ascending in seconds. Columns solver, options, seconds, nat and interpenetration_max of
+/// tradeoff.csv; others are not read. Throws Error, naming file and line, when one is missing or no number.
 std::vector<FrontEntry> ReadFront(const std::filesystem::path& file);
 
 }  // namespace nscdd

@@ -30,7 +30,8 @@ std::int64_t CellsOf(const std::string& grid) {
 /// Index of the entry to begin with.
 std::size_t First(const AutoSettings& wish, const std::vector<FrontEntry>& usable) {
   if (wish.interpenetration) {
-    const auto good = std::find_if(usable.begin(), usable.end(), [&](const FrontEntry& e) { return e.interpenetration <= *wish.interpenetration; });
+    const auto good = std::find_if(usable.begin(), usable.end(),
+                                   [&](const FrontEntry& e) { return e.interpenetration <= *wish.interpenetration; });
     return good == usable.end() ? usable.size() - 1 : static_cast<std::size_t>(good - usable.begin());
   }
   std::size_t first = 0;
@@ -54,7 +55,8 @@ std::vector<Setting> SafeLadder(const std::string& grid, const SolverRegistry& r
   if (one) {
     accelerated("20 its", {{"tolerance", "0"}, {"max_iterations", "20"}, {"test_every", "20"}});
   } else {
-    Options options = {{"subdomains", grid}, {"lambda", "100"}, {"tolerance", "0"}, {"max_iterations", "20"}, {"test_every", "20"}};
+    Options options = {
+        {"subdomains", grid}, {"lambda", "100"}, {"tolerance", "0"}, {"max_iterations", "20"}, {"test_every", "20"}};
     rungs.push_back({"iea", "iea", options});
     options.emplace_back("closing_updates", "20");
     rungs.push_back({"iea hybrid", "iea", options});
@@ -71,7 +73,8 @@ Ladder MakeLadder(const AutoSettings& wish, const std::string& grid, int ranks, 
   for (const FrontEntry& entry : front) {
     const std::string own = GridOf(entry.setting);
     std::vector<std::string> unused;
-    const bool fits = (grid.empty() || own == grid) && CellsOf(own) >= ranks && !KnownSettings({entry.setting}, registry, &unused).empty();
+    const bool fits =
+        (grid.empty() || own == grid) && CellsOf(own) >= ranks && !KnownSettings({entry.setting}, registry, &unused).empty();
     if (fits) usable.push_back(entry);
   }
   if (usable.empty()) return {SafeLadder(grid.empty() ? kOneSubdomain : grid, registry), "safe defaults"};

@@ -9,8 +9,8 @@
 
 namespace nscdd {
 
-/// Settings that `solver = "auto"` may use, each more accurate (and dearer) than the one before, all on one grid of subdomains. The
-/// run begins with the first.
+/// Settings that `solver = "auto"` may use, each more accurate (and dearer) than the one before, all on one grid of subdomains.
+/// The run begins with the first.
 struct Ladder {
   std::vector<Setting> rungs;
   std::string origin;  ///< "safe defaults", or the front's file
@@ -21,10 +21,10 @@ struct Ladder {
 /// several: iea, iea with closing iterations of nscdd, then nscdd, accelerated: nat 1e-3, 1e-4, 1e-5.
 std::vector<Setting> SafeLadder(const std::string& grid, const SolverRegistry& registry);
 
-/// The measured front from its first entry that serves the wish: the cheapest within the wanted interpenetration (with nothing so
-/// good, the most accurate one), without that wish the most accurate within the budget; then the more accurate ones on the same
-/// grid, then the built-in rungs that do not iterate a fixed number of times. `grid`: what the scene asks for, "" if nothing; `ranks` at most as many
-/// as subdomains. Without a usable entry the built-in ladder.
+/// The measured front from its first entry that serves the wish: the cheapest within the wanted interpenetration (with nothing
+/// so good, the most accurate one), without that wish the most accurate within the budget; then the more accurate ones on the
+/// same grid, then the built-in rungs that do not iterate a fixed number of times. `grid`: what the scene asks for, "" if
+/// nothing; `ranks` at most as many as subdomains. Without a usable entry the built-in ladder.
 Ladder MakeLadder(const AutoSettings& wish, const std::string& grid, int ranks, const std::vector<FrontEntry>& front,
                   const std::string& front_file, const SolverRegistry& registry);
 

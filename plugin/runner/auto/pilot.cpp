@@ -72,14 +72,16 @@ void RemoveGhosts(const Solver& solver, PlatformAdapter* adapter) {
 Pilot::Pilot(Ladder ladder, std::vector<SolverChoice> choices, const AutoSettings& wish, const SolverRegistry& registry)
     : ladder_(std::move(ladder)), choices_(std::move(choices)), watcher_(wish), registry_(registry) {}
 
-std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry, int ranks) {
+std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry,
+                                   int ranks) {
   if ((request.solver.empty() ? scene.solver.name : request.solver) != kAuto) return nullptr;
   const AutoSettings wish = scene.solver.wish.value_or(AutoSettings{1e-3, true, {}});
   const std::filesystem::path file = FrontFileOf(scene.file);
   const bool measured = std::filesystem::exists(file);
   Ladder ladder = MakeLadder(wish, WantedGrid(scene, request), ranks, measured ? ReadFront(file) : std::vector<FrontEntry>{},
                              file.string(), registry);
-  if (ladder.rungs.empty()) throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
+  if (ladder.rungs.empty())
+    throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
   std::vector<SolverChoice> choices;
   for (const Setting& rung : ladder.rungs) choices.push_back(ChoiceOf(rung, scene, request, registry));
   return std::unique_ptr<Pilot>(new Pilot(std::move(ladder), std::move(choices), wish, registry));
@@ -96,7 +98,8 @@ void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const R
   const double growth = watcher_.IsTooDeep(report) ? Largest(ranks, SolverGrowth(*solver, dt), 1e-12) : 0.0;
   const double seconds = Largest(ranks, report.seconds_total, 1e-9);
   const bool fixed = ladder_.rungs[rung_].Option("tolerance") == "0";
-  const auto verdict = watcher_.Judge(report, fixed, growth, seconds, goes_on && rung_ + 1 < choices_.size(), goes_on && rung_ > 0);
+  const auto verdict =
+      watcher_.Judge(report, fixed, growth, seconds, goes_on && rung_ + 1 < choices_.size(), goes_on && rung_ > 0);
   if (verdict == Watcher::Verdict::kStay) return;
   rung_ += verdict == Watcher::Verdict::kClimb ? 1 : std::size_t(-1);
   const std::vector<std::byte> state = solver->SaveState();

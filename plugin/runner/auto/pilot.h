@@ -17,12 +17,13 @@ namespace nscdd {
 class Pilot {
  public:
   /// Null unless the request, or else the scene, names the solver "auto". Throws Error on bad input.
-  static std::unique_ptr<Pilot> Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry, int ranks);
+  static std::unique_ptr<Pilot> Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry,
+                                     int ranks);
 
   /// Of the rung in use.
   const SolverChoice& choice() const { return choices_[rung_]; }
-  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be and another
-  /// step follows (`goes_on`). Collective.
+  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be
+  /// and another step follows (`goes_on`). Collective.
   void AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
                  const AdapterHost& host, PlatformAdapter* adapter, Solver* solver);
 

@@ -22,7 +22,8 @@ bool Watcher::IsTooDeep(const StepReport& report) const {
   return !(report.max_interpenetration <= std::max(Target(report), depth_ + kNegligible * Target(report)));
 }
 
-Watcher::Verdict Watcher::Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above, bool below) {
+Watcher::Verdict Watcher::Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above,
+                                bool below) {
   ++steps_;
   const SolveStatus status = report.solve.status;
   const bool limit = status == SolveStatus::kIterationLimit && !fixed;

@@ -8,8 +8,8 @@
 
 namespace nscdd {
 
-/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget looks
-/// at a clock.
+/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget
+/// looks at a clock.
 class Watcher {
  public:
   enum class Verdict { kStay, kClimb, kDescend };
@@ -42,7 +42,7 @@ class Watcher {
   std::int64_t not_converged_ = 0;
   std::int64_t over_budget_ = 0;
   std::int64_t since_change_ = 0;
-  double quick_ = 0.0;            // [s] largest step since the last change of rung
+  double quick_ = 0.0;  // [s] largest step since the last change of rung
 };
 
 }  // namespace nscdd

@@ -33,7 +33,8 @@ constexpr Extent kFull{100, 20, 5, 600.0}, kQuick{5, 3, 1, 60.0};
 constexpr double kReferenceShare = 0.25;  // of the time limit at most
 
 /// Options that say what problem a step is, not how it is solved.
-constexpr const char* kSteppingKeys[] = {"theta", "normal_law", "feedback_beta", "feedback_slop", "feedback_cap", "alert_distance"};
+constexpr const char* kSteppingKeys[] = {"theta",         "normal_law",   "feedback_beta",
+                                         "feedback_slop", "feedback_cap", "alert_distance"};
 
 bool IsStepping(const std::string& key) {
   return std::any_of(std::begin(kSteppingKeys), std::end(kSteppingKeys), [&](const char* known) { return key == known; });
@@ -134,7 +135,8 @@ void TradeoffCommand::MakeSettings() {
   settings_.insert(settings_.end(), list.begin(), list.end());
   if (!request_.solvers.empty()) {
     std::erase_if(settings_, [&](const Setting& s) {
-      return s.name != kSceneSetting && std::find(request_.solvers.begin(), request_.solvers.end(), s.solver) == request_.solvers.end();
+      return s.name != kSceneSetting &&
+             std::find(request_.solvers.begin(), request_.solvers.end(), s.solver) == request_.solvers.end();
     });
   }
   std::vector<std::string> notices;
@@ -147,7 +149,8 @@ void TradeoffCommand::MakeSettings() {
 }
 
 void TradeoffCommand::OpenFolder() {
-  folder_ = request_.out.empty() ? std::filesystem::path("results") / (scene_.name + "_tradeoff") : std::filesystem::path(request_.out);
+  folder_ = request_.out.empty() ? std::filesystem::path("results") / (scene_.name + "_tradeoff")
+                                 : std::filesystem::path(request_.out);
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw Error(CannotWrite(folder_, error.value()));
@@ -155,23 +158,25 @@ void TradeoffCommand::OpenFolder() {
 
 void TradeoffCommand::Record(const Interrupt& interrupt) {
   const Setting setting = ReferenceSetting(registry_, contacts_);
-  Say(fmt::format("{}: {} steps of {} s on {}; reference by {}, {} settings", scene_.name, plan_.steps, scene_.time.dt, plan_.adapter,
-                  setting.name, settings_.size()));
+  Say(fmt::format("{}: {} steps of {} s on {}; reference by {}, {} settings", scene_.name, plan_.steps, scene_.time.dt,
+                  plan_.adapter, setting.name, settings_.size()));
   ProgressBar bar(stdout, BarStyle(), plan_.steps);
   const auto start = std::chrono::steady_clock::now();
   const auto stop = [&] {
     const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return interrupt.raised() || used > kReferenceShare * extent_.seconds;
   };
-  reference_ = RecordReference(plan_, setting, stop, [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
+  reference_ = RecordReference(plan_, setting, stop,
+                               [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
   bar.Finish();
   const auto done = static_cast<std::int64_t>(reference_.nat.size());
-  Say(fmt::format("reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
-                  done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
-                  reference_.steps.size()));
+  Say(fmt::format(
+      "reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
+      done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
+      reference_.steps.size()));
   if (done < plan_.steps && !interrupt.raised()) {
-    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps", done,
-                    plan_.steps));
+    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps",
+                    done, plan_.steps));
   }
 }
 
@@ -210,7 +215,8 @@ void TradeoffCommand::StoreFront() const {
   if (!request_.store) return;
   const std::filesystem::path beside = std::filesystem::path(scene_.file).replace_extension(".front.csv");
   std::error_code error;
-  std::filesystem::copy_file(folder_ / (scene_.name + ".front.csv"), beside, std::filesystem::copy_options::overwrite_existing, error);
+  std::filesystem::copy_file(folder_ / (scene_.name + ".front.csv"), beside, std::filesystem::copy_options::overwrite_existing,
+                             error);
   if (error) throw Error(CannotWrite(beside, error.value()));
   Say(fmt::format("front for solver \"auto\": {}", beside.string()));
 }
@@ -219,9 +225,10 @@ void TradeoffCommand::Conclude(bool interrupted) {
   if (rows_.empty()) return Say("interrupted before anything was measured");
   const std::vector<TradeoffRow> problems = OfView(rows_, "problems"), runs = OfView(rows_, "runs");
   const auto tables = [&](bool all) {
-    return "\nThe same problems" + std::string(plan_.cold ? ", from zero impulses" : "") + ", time of the solve alone; * front of the velocity error\n" +
-           FormatTable(problems, Accuracy::kVelocityError, all) +
-           fmt::format("\nWhole runs, detection included; * front of {}\n", NameOf(accuracy_)) + FormatTable(runs, accuracy_, all);
+    return "\nThe same problems" + std::string(plan_.cold ? ", from zero impulses" : "") +
+           ", time of the solve alone; * front of the velocity error\n" + FormatTable(problems, Accuracy::kVelocityError, all) +
+           fmt::format("\nWhole runs, detection included; * front of {}\n", NameOf(accuracy_)) +
+           FormatTable(runs, accuracy_, all);
   };
   Say(tables(false));
   const std::string box2d = FormatBox2dComparison(runs);

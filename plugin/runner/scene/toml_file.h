@@ -13,8 +13,8 @@ namespace nscdd {
 /// Throws Error "FILE:LINE: ..." if there is no such file, it is too large, no UTF-8 text or no TOML.
 toml::table ParseTomlFile(const std::filesystem::path& path);
 
-/// Any value of a solver's option as the text that its option table reads: numbers in the shortest form that reads back the same, pairs
-/// of integers as "2x3".
+/// Any value of a solver's option as the text that its option table reads: numbers in the shortest form that reads back the
+/// same, pairs of integers as "2x3".
 std::string OptionText(const TableReader& table, std::string_view key, const toml::node& node);
 
 }  // namespace nscdd

@@ -86,10 +86,12 @@ AnswerResiduals MeasureAnswer(const ContactProblem& p, const Answer& answer, con
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
     if (!IsFree(p, i)) continue;
     const Twist &v = answer.velocity[i], &f = p.free_velocity[i];
-    defect += Square(p.mass[i] * (v.vx - f.vx) - push[i].fx) / p.mass[i] + Square(p.mass[i] * (v.vy - f.vy) - push[i].fy) / p.mass[i] +
+    defect += Square(p.mass[i] * (v.vx - f.vx) - push[i].fx) / p.mass[i] +
+              Square(p.mass[i] * (v.vy - f.vy) - push[i].fy) / p.mass[i] +
               Square(p.inertia[i] * (v.spin - f.spin) - push[i].torque) / p.inertia[i];
   }
-  const double speed = std::max(scales.velocity, p.approach_speed);
+  double speed = std::max(scales.velocity, p.approach_speed);
+  for (const double offset : p.offset) speed = std::max(speed, -offset);  // speeds of recovery
   AnswerResiduals result;
   result.nat = e2 == 0.0 ? 0.0 : std::sqrt(e2) / std::max(std::sqrt(r2), 1e-3 * scales.impulse);
   result.nat_max = speed > 0.0 ? worst / speed : 0.0;

@@ -12,8 +12,8 @@ struct Answer {
   std::vector<Vec2> impulse;
 };
 
-/// How well an answer solves a contact problem. Written independently of the core (one plain loop over the definitions), so that
-/// answers of other engines and our own are measured by the same yardstick, and ours twice.
+/// How well an answer solves a contact problem. Written independently of the core (one plain loop over the definitions), so
+/// that answers of other engines and our own are measured by the same yardstick, and ours twice.
 struct AnswerResiduals {
   double nat = 0.0;              ///< [-] definitions of nat and nat_max: core/src/nlgs/residual.h
   double nat_max = 0.0;          ///< [-]
@@ -25,12 +25,13 @@ struct AnswerResiduals {
 /// Residuals over the contacts `measured` (empty: all). Momentum counts all contacts.
 AnswerResiduals MeasureAnswer(const ContactProblem& problem, const Answer& answer, const std::vector<bool>& measured = {});
 
-/// |V - other|_M / |dt f|_{M^-1} over free bodies, spins included; and of one body at most, sqrt(|dV|^2 + I/m dw^2) over the largest
-/// |dt f| / m. Without loads the scale is 1 m/s (and the root of the total mass).
+/// |V - other|_M / |dt f|_{M^-1} over free bodies, spins included; and of one body at most, sqrt(|dV|^2 + I/m dw^2) over the
+/// largest |dt f| / m. Without loads the scale is 1 m/s (and the root of the total mass).
 struct VelocityError {
   double energy_norm = 0.0;  ///< [-]
   double worst_body = 0.0;   ///< [-]
 };
-VelocityError CompareVelocities(const ContactProblem& problem, const std::vector<Twist>& velocity, const std::vector<Twist>& other);
+VelocityError CompareVelocities(const ContactProblem& problem, const std::vector<Twist>& velocity,
+                                const std::vector<Twist>& other);
 
 }  // namespace nscdd

@@ -5,7 +5,6 @@
 #include <unordered_map>
 #include <utility>
 
-
 #include "nscdd/box2d/box2d_adapter.h"
 #include "nscdd/error.h"
 #include "scene/grain_size.h"
@@ -22,7 +21,8 @@ namespace {
 /// r_t) does not.
 class ImpulseListener final : public b2ContactListener {
  public:
-  using Shapes = std::unordered_map<const b2Fixture*, std::pair<std::int64_t, std::int32_t>>;  // id of the body, number of the shape
+  using Shapes =
+      std::unordered_map<const b2Fixture*, std::pair<std::int64_t, std::int32_t>>;  // id of the body, number of the shape
   explicit ImpulseListener(Shapes shapes = {}) : shapes_(std::move(shapes)) {}
 
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
@@ -60,7 +60,8 @@ class Box2dContestant final : public Contestant {
 int Iterations(const Setting& setting, const std::string& key) {
   const std::string text = setting.Option(key);
   const bool digits = !text.empty() && text.size() < 7 && text.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits) throw Error(fmt::format("setting '{}': {} = '{}' is no number of iterations; give an integer", setting.name, key, text));
+  if (!digits)
+    throw Error(fmt::format("setting '{}': {} = '{}' is no number of iterations; give an integer", setting.name, key, text));
   return std::stoi(text);
 }
 

@@ -37,9 +37,17 @@ void AddOneDomain(List* list) {
                 {{"acceleration", acceleration}, {"tolerance", fmt::format("1e-{}", decade)}}, decade % 2 == 0);
     }
     for (const int count : {5, 10, 20, 50, 100}) {
-      list->Add(fmt::format("nscd{} {} its", Suffix(acceleration), count), "nscd", Fixed(count, {{"acceleration", acceleration}}),
-                count == 20);
+      list->Add(fmt::format("nscd{} {} its", Suffix(acceleration), count), "nscd",
+                Fixed(count, {{"acceleration", acceleration}}), count == 20);
     }
+  }
+}
+
+/// Extrapolating every iteration is not always worth its memory traffic.
+void AddSparseAnderson(List* list) {
+  for (const int decade : {2, 3, 4, 5}) {
+    list->Add(fmt::format("nscd anderson/4 nat 1e-{}", decade), "nscd",
+              {{"acceleration", "anderson"}, {"anderson_every", "4"}, {"tolerance", fmt::format("1e-{}", decade)}});
   }
 }
 
@@ -120,6 +128,7 @@ void AddBox2d(List* list) {
 std::vector<Setting> DefaultSettings() {
   List list;
   AddOneDomain(&list);
+  AddSparseAnderson(&list);
   AddDecomposed(&list);
   AddEnriched(&list);
   AddIncomplete(&list);

@@ -34,7 +34,8 @@ std::vector<std::size_t> Ranked(const std::vector<TradeoffRow>& rows, Accuracy a
 Accuracy ParseAccuracy(const std::string& name) {
   const std::vector<std::string> names(kNames.begin(), kNames.end());
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) throw Error(fmt::format("--accuracy: there is no '{}'; {}", name, Suggestion(name, names, "measures")));
+  if (at == names.end())
+    throw Error(fmt::format("--accuracy: there is no '{}'; {}", name, Suggestion(name, names, "measures")));
   return static_cast<Accuracy>(at - names.begin());
 }
 

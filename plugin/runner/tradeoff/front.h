@@ -16,8 +16,8 @@ std::string NameOf(Accuracy accuracy);
 /// Number of the row; < 0: not measured in its view.
 double ErrorOf(const TradeoffRow& row, Accuracy accuracy);
 
-/// Rows that no other row beats: ascending in seconds, strictly falling in error. Unsound rows and those that did not measure the
-/// error are left out. Indices into `rows`.
+/// Rows that no other row beats: ascending in seconds, strictly falling in error. Unsound rows and those that did not measure
+/// the error are left out. Indices into `rows`.
 std::vector<std::size_t> ParetoFront(const std::vector<TradeoffRow>& rows, Accuracy accuracy);
 
 /// The cheapest row whose error is at most 10^-k, for every k between the largest and the smallest error of the front.

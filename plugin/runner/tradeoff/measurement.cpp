@@ -13,9 +13,13 @@ double SecondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 }  // namespace
 
-Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_ptr<View>> views, int repetitions, double seconds,
-                         MeasurementEvents events)
-    : settings_(std::move(settings)), views_(std::move(views)), repetitions_(repetitions), events_(std::move(events)) {
+Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_ptr<View>> views, int repetitions,
+                         double seconds, MeasurementEvents events)
+    : settings_(std::move(settings)),
+      views_(std::move(views)),
+      repetitions_(repetitions),
+      seconds_(seconds),
+      events_(std::move(events)) {
   for (const Setting& setting : settings_) {
     for (const auto& view : views_) {
       if (view->Takes(setting)) pairs_.push_back({&setting, view.get(), {}});
@@ -26,12 +30,14 @@ Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_
 
 std::int64_t Measurement::ticks() const { return static_cast<std::int64_t>(pairs_.size()) * (1 + repetitions_); }
 
+double Measurement::Allowance() const { return std::max(0.5 * share_, (seconds_ - SecondsSince(start_)) / 8.0); }
+
 void Measurement::MeasurePair(Pair* pair) {
   const Clock::time_point start = Clock::now();
-  const auto stop = [&] { return events_.interrupted() || SecondsSince(start) > share_; };
+  const double allowance = Allowance();
+  const auto stop = [&] { return events_.interrupted() || SecondsSince(start) > allowance; };
   TradeoffRow row = pair->view->Measure(*pair->setting, &pair->timings, stop);
   pair->timings.Fill(&row);
-  pair->used = SecondsSince(start);
   pair->row = rows_.size();
   pair->done = row.status == "cut" || row.status == "failed";
   rows_.push_back(row);
@@ -40,17 +46,16 @@ void Measurement::MeasurePair(Pair* pair) {
 }
 
 void Measurement::TimePair(Pair* pair) {
-  const Clock::time_point start = Clock::now();
-  pair->done = pair->done || pair->used + pair->timings.LastTotal() > share_;
+  pair->done = pair->done || pair->timings.LastTotal() > Allowance();
   if (!pair->done) {
     pair->view->Time(*pair->setting, &pair->timings, events_.interrupted);
-    pair->used += SecondsSince(start);
     pair->timings.Fill(&rows_[pair->row]);
   }
   events_.tick(fmt::format("{}: {}", rows_[pair->row].view, rows_[pair->row].setting.name), false);
 }
 
 void Measurement::Run() {
+  start_ = Clock::now();
   for (Pair& pair : pairs_) {
     if (events_.interrupted()) return;
     MeasurePair(&pair);

@@ -79,7 +79,8 @@ Observable ParseObservable(const std::string& name) {
 std::string NameOf(Observable observable) { return kEntries[static_cast<std::size_t>(observable)].name; }
 std::string UnitOf(Observable observable) { return kEntries[static_cast<std::size_t>(observable)].unit; }
 
-double Evaluate(Observable observable, const StepProblem& step, const Answer& answer, const std::vector<Pose>& end, double period) {
+double Evaluate(Observable observable, const StepProblem& step, const Answer& answer, const std::vector<Pose>& end,
+                double period) {
   switch (observable) {
     case Observable::kWallForce:
       return Norm(WallForce(step, answer));

@@ -26,6 +26,7 @@ std::string UnitOf(Observable observable);
 std::vector<std::string> ObservableNames();
 
 /// `end`: poses at the end of the step, by row of bodies; `period` [m], 0 without.
-double Evaluate(Observable observable, const StepProblem& step, const Answer& answer, const std::vector<Pose>& end, double period);
+double Evaluate(Observable observable, const StepProblem& step, const Answer& answer, const std::vector<Pose>& end,
+                double period);
 
 }  // namespace nscdd

@@ -32,7 +32,8 @@ class ProblemSolver {
     const double inside = solver_.Report().seconds_solve;  // the other way round
     outcome.seconds = inside > 0.0 ? std::min(inside, around) : around;
     outcome.effort = EffortOf(solution.report, fixed_);
-    outcome.end.pose = Drifted(step.problem.detection, solution.velocity, step.problem.stepping.theta * step.problem.dt, platform_);
+    outcome.end.pose =
+        Drifted(step.problem.detection, solution.velocity, step.problem.stepping.theta * step.problem.dt, platform_);
     outcome.end.answer = {std::move(solution.velocity), std::move(solution.impulse)};
     return outcome;
   }
@@ -70,7 +71,8 @@ TradeoffRow ProblemsView::Measure(const Setting& setting, Timings* timings, cons
                     MeasureGrowth(&geometry_->adapter(), step.problem, velocity, outcome.end.pose), outcome.effort});
       row.AddStep(MeasureInterpenetration(&geometry_->adapter(), step.problem.bodies.id, outcome.end.pose,
                                           plan_.stepping.alert_distance),
-                  Evaluate(plan_.observable, step.problem, outcome.end.answer, outcome.end.pose, platform.period), step.observable);
+                  Evaluate(plan_.observable, step.problem, outcome.end.answer, outcome.end.pose, platform.period),
+                  step.observable);
     }
   } catch (const Error& e) {
     failure = e.what();

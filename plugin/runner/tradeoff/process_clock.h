@@ -4,7 +4,8 @@
 
 namespace nscdd {
 
-/// CPU time of this process [s], all its threads: what other programs do on the machine costs cache, but is not counted as such.
+/// CPU time of this process [s], all its threads: what other programs do on the machine costs cache, but is not counted as
+/// such.
 inline double ProcessSeconds() {
   std::timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

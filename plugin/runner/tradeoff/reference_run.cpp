@@ -13,7 +13,12 @@
 namespace nscdd {
 namespace {
 
-constexpr double kContactUpdates = 4e7;  // in a step of the reference at most: about half a second
+// What a step of the reference may take: about half a second of sweeps, some seconds of factorisations.
+constexpr double kContactUpdates = 4e7, kFactorisedContacts = 4e6;
+
+std::string Clamped(double most, std::int64_t least, std::int64_t largest) {
+  return fmt::format("{}", std::clamp(static_cast<std::int64_t>(most), least, largest));
+}
 
 std::vector<Vec2> RowsOf(const std::map<ContactKey, Vec2>& by_key, const StepProblem& problem) {
   std::vector<Vec2> rows(problem.keys.size());
@@ -46,11 +51,16 @@ StepEnd ReadStepEnd(Contestant* contestant, const StepProblem& problem) {
 }
 
 Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts) {
-  const double most = kContactUpdates / static_cast<double>(std::max<std::int64_t>(1, contacts));
-  const std::string iterations = fmt::format("{}", std::clamp(static_cast<std::int64_t>(most), std::int64_t{500}, std::int64_t{20000}));
+  const auto count = static_cast<double>(std::max<std::int64_t>(1, contacts));
+  const std::string iterations = Clamped(kContactUpdates / count, 500, 20000);
   const std::vector<Setting> candidates = {
-      {"newton", "newton", {{"tolerance", "1e-10"}}},
-      {"nscd anderson", "nscd",
+      {"newton",
+       "newton",
+       {{"tolerance", "1e-10"},
+        {"interior_residual", "1e-5"},
+        {"max_iterations", Clamped(kFactorisedContacts / count, 150, 600)}}},
+      {"nscd anderson",
+       "nscd",
        {{"acceleration", "anderson"}, {"tolerance", "1e-10"}, {"max_iterations", iterations}, {"test_every", "20"}}},
       {"nscd", "nscd", {{"tolerance", "1e-10"}, {"max_iterations", iterations}, {"test_every", "20"}}}};
   std::vector<std::string> notices;

@@ -24,14 +24,14 @@ struct ReferenceRun {
   std::vector<double> nat;          ///< of every step, as measured here
   std::vector<double> nat_max;
   std::int64_t not_converged = 0;
-  double seconds = 0.0;             ///< that it took
+  double seconds = 0.0;  ///< that it took
 };
 
 /// `newton` where the plugin has it, else `nscd`, accelerated if it can be; `contacts` bounds the iterations.
 Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts);
 
-/// Runs `setting` from the scene's start; fewer steps when `stop` says so (one at least). Throws Error when the residual measured
-/// here is not the one that the solver reports: the problem would not be the one that was solved.
+/// Runs `setting` from the scene's start; fewer steps when `stop` says so (one at least). Throws Error when the residual
+/// measured here is not the one that the solver reports: the problem would not be the one that was solved.
 ReferenceRun RecordReference(const Plan& plan, const Setting& setting, const StopQuestion& stop,
                              const std::function<void(std::int64_t, double)>& progress);
 

@@ -26,9 +26,9 @@ double RunsView::MeasureStep(std::int64_t step, Contestant* contestant, const Se
                    contestant->LastEffort()});
     if (k + 1 < setting.substeps) continue;
     const AdapterDescription platform = contestant->adapter().Describe();
-    row->AddStep(
-        MeasureInterpenetration(&contestant->adapter(), problem.bodies.id, end.pose, plan_.stepping.alert_distance),
-        Evaluate(plan_.observable, problem, end.answer, end.pose, platform.period), reference_.observable.at(static_cast<std::size_t>(step) - 1));
+    row->AddStep(MeasureInterpenetration(&contestant->adapter(), problem.bodies.id, end.pose, plan_.stepping.alert_distance),
+                 Evaluate(plan_.observable, problem, end.answer, end.pose, platform.period),
+                 reference_.observable.at(static_cast<std::size_t>(step) - 1));
   }
   return seconds;
 }

@@ -11,7 +11,8 @@ namespace nscdd {
 namespace {
 
 bool HasOption(const nscdd_solver_info& solver, const std::string& name) {
-  return std::any_of(solver.options, solver.options + solver.option_count, [&](const nscdd_option& o) { return name == o.name; });
+  return std::any_of(solver.options, solver.options + solver.option_count,
+                     [&](const nscdd_option& o) { return name == o.name; });
 }
 
 const nscdd_solver_info* FindSolver(const SolverRegistry& registry, const std::string& name) {

@@ -15,7 +15,7 @@ struct Setting {
   std::string name;  ///< for tables, unique in a list
   std::string solver;
   std::vector<std::pair<std::string, std::string>> options;
-  int substeps = 1;  ///< steps of dt / substeps for one step of the scene
+  int substeps = 1;    ///< steps of dt / substeps for one step of the scene
   bool quick = false;  ///< also part of the short list
 
   bool is_box2d() const { return solver == "box2d"; }
@@ -33,7 +33,8 @@ std::vector<Setting> DefaultSettings();
 std::vector<Setting> ReadSettings(const std::filesystem::path& file);
 
 /// Drops settings whose solver or option no loaded plugin has; one sentence each distinct reason is added to `notices`.
-std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRegistry& registry, std::vector<std::string>* notices);
+std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRegistry& registry,
+                                   std::vector<std::string>* notices);
 
 /// The lines of a scene file that choose the setting: [solver], and a remark on [time] if it sub-steps.
 std::string SolverSection(const Setting& setting);

@@ -30,7 +30,8 @@ std::vector<Setting> ReadSettings(const std::filesystem::path& file) {
     settings.push_back(std::move(setting));
   }
   root.Finish();
-  if (settings.empty()) throw Error(fmt::format("{}: has no [[settings]]; write one with name, solver and options.", file.string()));
+  if (settings.empty())
+    throw Error(fmt::format("{}: has no [[settings]]; write one with name, solver and options.", file.string()));
   return settings;
 }
 

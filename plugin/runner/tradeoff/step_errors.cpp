@@ -29,7 +29,8 @@ KeyedDepths DetectDepths(PlatformAdapter* adapter, const StepProblem& step, cons
   adapter->DetectContacts({step.bodies.id, poses}, step.stepping.alert_distance, &t);
   KeyedDepths found;
   for (std::size_t c = 0; c < t.size(); ++c) {
-    found.key.push_back({step.bodies.id[t.a[c]], step.bodies.id[t.b[c]], t.shape_a[c], t.shape_b[c], t.has_images() ? t.image[c] : 0});
+    found.key.push_back(
+        {step.bodies.id[t.a[c]], step.bodies.id[t.b[c]], t.shape_a[c], t.shape_b[c], t.has_images() ? t.image[c] : 0});
     found.depth.push_back(Depth(t.gap[c]));
   }
   return found;

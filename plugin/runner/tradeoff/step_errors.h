@@ -21,8 +21,9 @@ Interpenetration MeasureInterpenetration(PlatformAdapter* adapter, const std::ve
 
 /// What a step adds to the interpenetration p = max(0, -gap) between its detection at q_m and the next one at
 /// q_e = q_end + (1 - theta) dt V, by contact, in two parts whose sum is p(q_e) - p(q_m) of the contacts that deepen:
-///     solver    max(0, p_lin - p(q_m)),  p_lin = max(0, -(gap(q_m) + dt v_n)): what a violated law of velocities adds, 0 if exact
-///     geometry  p(q_e) - p_lin: what gaps do beyond their linearisation (and what an engine moves without a velocity); signed
+///     solver    max(0, p_lin - p(q_m)),  p_lin = max(0, -(gap(q_m) + dt v_n)): what a violated law of velocities adds, 0 if
+///     exact geometry  p(q_e) - p_lin: what gaps do beyond their linearisation (and what an engine moves without a velocity);
+///     signed
 /// Contacts that were no candidates at q_m count as geometry. Means over the candidates at q_m [m].
 struct InterpenetrationGrowth {
   double solver_mean = 0.0;

@@ -16,7 +16,7 @@ struct StepProblem {
   ContactProblem problem;        ///< same rows; subdomains are left to the solver
   std::vector<ContactKey> keys;  ///< of its contacts, ascending
   SteppingOptions stepping;
-  double dt = 0.0;               ///< [s]
+  double dt = 0.0;  ///< [s]
 };
 
 /// From what the adapter's host holds now. Throws Error unless stepping.alert_distance >= 0 and the law keeps open contacts.

@@ -22,7 +22,8 @@ void Write(const std::filesystem::path& file, std::ios::openmode mode, const std
 /// Without what would need quotes.
 std::string Clause(std::string text) {
   std::replace(text.begin(), text.end(), ',', ';');
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
@@ -39,12 +40,18 @@ struct Column {
   std::string (*text)(const TradeoffRow&);
 };
 
-#define NSCDD_NUMBER(name, member) \
-  Column { name, [](const TradeoffRow& row) { return fmt::format("{}", row.member); } }
-#define NSCDD_OPTIONAL(name) \
-  Column { #name, [](const TradeoffRow& row) { return NumberOrNothing(row.name); } }
-#define NSCDD_SECONDS(name) \
-  Column { #name, [](const TradeoffRow& row) { return fmt::format("{:.4g}", row.name); } }
+#define NSCDD_NUMBER(name, member)                                             \
+  Column {                                                                     \
+    name, [](const TradeoffRow& row) { return fmt::format("{}", row.member); } \
+  }
+#define NSCDD_OPTIONAL(name)                                                \
+  Column {                                                                  \
+#name, [](const TradeoffRow& row) { return NumberOrNothing(row.name); } \
+  }
+#define NSCDD_SECONDS(name)                                                       \
+  Column {                                                                        \
+#name, [](const TradeoffRow& row) { return fmt::format("{:.4g}", row.name); } \
+  }
 
 const Column kColumns[] = {
     NSCDD_NUMBER("view", view),

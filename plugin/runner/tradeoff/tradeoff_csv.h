@@ -8,8 +8,8 @@
 
 namespace nscdd {
 
-/// tradeoff.csv: a row a setting and view, appended as measured, so that a run that is killed leaves what it has. Throws Error, naming
-/// the file, when the system refuses.
+/// tradeoff.csv: a row a setting and view, appended as measured, so that a run that is killed leaves what it has. Throws Error,
+/// naming the file, when the system refuses.
 class TradeoffCsv {
  public:
   /// Begins the file.

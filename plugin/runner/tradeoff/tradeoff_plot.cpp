@@ -44,7 +44,8 @@ std::string Quoted(const std::string& text) {
 
 void AddPoint(const TradeoffRow& row, Accuracy accuracy, std::string* data) {
   const double error = ErrorOf(row, accuracy);
-  if (row.is_sound() && std::isfinite(error) && error > 0.0 && row.seconds > 0.0) *data += fmt::format("{} {}\n", 1e3 * row.seconds, error);
+  if (row.is_sound() && std::isfinite(error) && error > 0.0 && row.seconds > 0.0)
+    *data += fmt::format("{} {}\n", 1e3 * row.seconds, error);
 }
 
 std::string PanelScript(const Panel& panel, int number, const std::vector<TradeoffRow>& all) {

@@ -8,8 +8,8 @@
 
 namespace nscdd {
 
-/// Writes FOLDER/tradeoff.gp (with the data in it) and has gnuplot draw FOLDER/tradeoff.png: error against seconds a step, log-log, fronts
-/// highlighted. Returns what to tell the user: the picture's path, or why there is none.
+/// Writes FOLDER/tradeoff.gp (with the data in it) and has gnuplot draw FOLDER/tradeoff.png: error against seconds a step,
+/// log-log, fronts highlighted. Returns what to tell the user: the picture's path, or why there is none.
 std::string PlotTradeoff(const std::filesystem::path& folder, const std::string& title, const std::vector<TradeoffRow>& rows);
 
 /// The gnuplot script that draws `picture`.

@@ -44,7 +44,8 @@ void Timings::Fill(TradeoffRow* row) const {
 
 double Timings::LastTotal() const { return runs_.empty() ? 0.0 : Sum(runs_.back()); }
 
-RowBuilder::RowBuilder(std::string view, const Setting& setting, double mean_radius) : radius_(mean_radius > 0.0 ? mean_radius : 1.0) {
+RowBuilder::RowBuilder(std::string view, const Setting& setting, double mean_radius)
+    : radius_(mean_radius > 0.0 ? mean_radius : 1.0) {
   row_.view = std::move(view);
   row_.setting = setting;
 }

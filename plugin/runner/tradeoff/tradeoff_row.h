@@ -12,19 +12,19 @@ namespace nscdd {
 
 /// A setting as measured in one view. Lengths in mean radii of the free bodies; README.md defines every number.
 struct TradeoffRow {
-  std::string view;    ///< "problems" or "runs"
+  std::string view;  ///< "problems" or "runs"
   Setting setting;
-  std::string status;  ///< of the worst step: NameOf(StepStatus), "failed" or, when it took too long for the whole, "cut"
-  std::string reason;  ///< one clause, of the worst step
-  std::int64_t steps = 0;          ///< measured
+  std::string status;      ///< of the worst step: NameOf(StepStatus), "failed" or, when it took too long for the whole, "cut"
+  std::string reason;      ///< one clause, of the worst step
+  std::int64_t steps = 0;  ///< measured
   std::int64_t not_converged = 0;  ///< of them: iteration limit, stalled or diverged
   double nat = 0.0;                ///< [-] median over the steps
   double nat_worst = 0.0;          ///< largest
   double nat_max = 0.0;            ///< [-] median
   double nat_max_worst = 0.0;
-  double velocity_error = -1.0;    ///< [-] median; < 0: not measured in this view
+  double velocity_error = -1.0;  ///< [-] median; < 0: not measured in this view
   double velocity_error_worst = -1.0;
-  double worst_body = -1.0;        ///< [-] largest
+  double worst_body = -1.0;            ///< [-] largest
   double interpenetration_mean = 0.0;  ///< mean over the steps
   double interpenetration_p99 = 0.0;   ///< mean over the steps
   double interpenetration_max = 0.0;   ///< largest

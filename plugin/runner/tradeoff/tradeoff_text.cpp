@@ -15,15 +15,17 @@ std::string Number(double value) { return value < 0.0 ? "" : fmt::format("{:.1e}
 
 std::string Milliseconds(double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); }
 
-bool IsOn(const std::vector<std::size_t>& front, std::size_t row) { return std::find(front.begin(), front.end(), row) != front.end(); }
+bool IsOn(const std::vector<std::size_t>& front, std::size_t row) {
+  return std::find(front.begin(), front.end(), row) != front.end();
+}
 
 std::string Line(const TradeoffRow& row, bool on_front) {
   const std::string status =
       row.not_converged > 0 ? fmt::format("{} {}/{}", row.status, row.not_converged, row.steps) : row.status;
-  return fmt::format("{} {:<{}}  {:<20}  {:>8}  {:>7.0f}  {:>7.0f}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}\n", on_front ? '*' : ' ',
-                     row.setting.name, kNameWidth, status, Milliseconds(row.seconds), row.sweeps, row.exchanges, Number(row.nat),
-                     Number(row.nat_max), Number(row.velocity_error), Number(row.interpenetration_mean),
-                     Number(row.interpenetration_max), Number(row.growth.solver_max));
+  return fmt::format("{} {:<{}}  {:<20}  {:>8}  {:>7.0f}  {:>7.0f}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}\n",
+                     on_front ? '*' : ' ', row.setting.name, kNameWidth, status, Milliseconds(row.seconds), row.sweeps,
+                     row.exchanges, Number(row.nat), Number(row.nat_max), Number(row.velocity_error),
+                     Number(row.interpenetration_mean), Number(row.interpenetration_max), Number(row.growth.solver_max));
 }
 
 std::vector<TradeoffRow> WithoutBox2d(const std::vector<TradeoffRow>& rows) {
@@ -48,11 +50,12 @@ std::vector<TradeoffRow> OfView(const std::vector<TradeoffRow>& rows, const std:
 
 std::string FormatTable(const std::vector<TradeoffRow>& rows, Accuracy accuracy, bool all) {
   const std::vector<std::size_t> front = ParetoFront(rows, accuracy);
-  std::string text = fmt::format("  {:<{}}  {:<20}  {:>8}  {:>7}  {:>7}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}\n", "setting", kNameWidth,
-                                 "status", "ms/step", "sweeps", "exch.", "nat", "nat_max", "V error", "pen mean", "pen max",
-                                 "grow max");
+  std::string text =
+      fmt::format("  {:<{}}  {:<20}  {:>8}  {:>7}  {:>7}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}  {:>8}\n", "setting", kNameWidth,
+                  "status", "ms/step", "sweeps", "exch.", "nat", "nat_max", "V error", "pen mean", "pen max", "grow max");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool shown = all || IsOn(front, i) || rows[i].setting.is_box2d() || rows[i].setting.name == kSceneSetting || !rows[i].is_sound();
+    const bool shown =
+        all || IsOn(front, i) || rows[i].setting.is_box2d() || rows[i].setting.name == kSceneSetting || !rows[i].is_sound();
     if (shown) text += Line(rows[i], IsOn(front, i));
   }
   return text;
@@ -64,16 +67,17 @@ std::string FormatBox2dComparison(const std::vector<TradeoffRow>& rows) {
     if (!row.setting.is_box2d() || !row.is_sound()) continue;
     const auto found = CheapestAsGood(rows, row);
     if (!found) {
-      text += fmt::format("{}: no setting is at least as good in nat ({:.1e}) and largest interpenetration ({:.1e})\n", row.setting.name,
-                          row.nat, row.interpenetration_max);
+      text += fmt::format("{}: no setting is at least as good in nat ({:.1e}) and largest interpenetration ({:.1e})\n",
+                          row.setting.name, row.nat, row.interpenetration_max);
       continue;
     }
     const TradeoffRow& ours = rows[*found];
-    text += fmt::format("{}: {} is at least as good (nat {:.1e} against {:.1e}, largest interpenetration {:.1e} against {:.1e}) and {:.1f} "
-                        "times {}\n",
-                        row.setting.name, ours.setting.name, ours.nat, row.nat, ours.interpenetration_max, row.interpenetration_max,
-                        ours.seconds <= row.seconds ? row.seconds / ours.seconds : ours.seconds / row.seconds,
-                        ours.seconds <= row.seconds ? "faster" : "slower");
+    text += fmt::format(
+        "{}: {} is at least as good (nat {:.1e} against {:.1e}, largest interpenetration {:.1e} against {:.1e}) and {:.1f} "
+        "times {}\n",
+        row.setting.name, ours.setting.name, ours.nat, row.nat, ours.interpenetration_max, row.interpenetration_max,
+        ours.seconds <= row.seconds ? row.seconds / ours.seconds : ours.seconds / row.seconds,
+        ours.seconds <= row.seconds ? "faster" : "slower");
   }
   return text;
 }
@@ -87,7 +91,7 @@ std::string FormatAdvice(const std::vector<TradeoffRow>& rows, const Wish& wish,
     const TradeoffRow& row = ours[choice.row];
     text += fmt::format("# {} <= 1e{}: {}, {} ms a step, {} {:.1e}", measure, -choice.decade, row.setting.name,
                         Milliseconds(row.seconds), measure, ErrorOf(row, wish.accuracy));
-    text += choice.row == last ? " (the same)\n" : "\n" + Section(row.setting, plan);
+    text += choice.row == last ? " (the same)\n" : fmt::format("\n{}", Section(row.setting, plan));
     last = choice.row;
   }
   if (text.empty()) text = fmt::format("# no setting has a {}\n", measure);
@@ -95,9 +99,9 @@ std::string FormatAdvice(const std::vector<TradeoffRow>& rows, const Wish& wish,
   const auto best = BestWithin(ours, wish.accuracy, *wish.budget);
   if (!best) return text + fmt::format("# no setting takes at most {} ms a step\n", Milliseconds(*wish.budget));
   const TradeoffRow& row = ours[*best];
-  return text + fmt::format("# the most accurate within {} ms a step: {}, {} ms a step, {} {:.1e}\n{}", Milliseconds(*wish.budget),
-                            row.setting.name, Milliseconds(row.seconds), measure, ErrorOf(row, wish.accuracy),
-                            Section(row.setting, plan));
+  return text + fmt::format("# the most accurate within {} ms a step: {}, {} ms a step, {} {:.1e}\n{}",
+                            Milliseconds(*wish.budget), row.setting.name, Milliseconds(row.seconds), measure,
+                            ErrorOf(row, wish.accuracy), Section(row.setting, plan));
 }
 
 }  // namespace nscdd

@@ -19,9 +19,9 @@ class View {
   virtual void Time(const Setting& setting, Timings* timings, const StopQuestion& stop) = 0;
 };
 
-/// Each setting solves the recorded problems, from the impulses of the reference's step before (or from zero). Timed: the solve alone
-/// (building its arrays included). Box2D is not here: it has no contact while a gap is positive, and an accurate run leaves half of
-/// them so, by rounding.
+/// Each setting solves the recorded problems, from the impulses of the reference's step before (or from zero). Timed: the solve
+/// alone (building its arrays included). Box2D is not here: it has no contact while a gap is positive, and an accurate run
+/// leaves half of them so, by rounding.
 class ProblemsView final : public View {
  public:
   ProblemsView(const Plan& plan, const ReferenceRun& reference);
@@ -36,7 +36,8 @@ class ProblemsView final : public View {
   std::unique_ptr<Platform> geometry_;  ///< the scene's bodies: finds the contacts at any poses
 };
 
-/// Each setting runs the scene from its start on its own trajectory. Timed: whole steps, detection included, CPU time of the process.
+/// Each setting runs the scene from its start on its own trajectory. Timed: whole steps, detection included, CPU time of the
+/// process.
 class RunsView final : public View {
  public:
   RunsView(const Plan& plan, const ReferenceRun& reference) : plan_(plan), reference_(reference) {}
