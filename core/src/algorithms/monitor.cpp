@@ -102,8 +102,8 @@ std::string Monitor::ReasonOfSuccess() const {
   std::string reason = fmt::format("{} is below the tolerance {:.3g}", Name(options_.criterion), options_.tolerance);
   const double worst = report_.residuals.nat_max;
   if (options_.criterion != Criterion::kNatMax && worst > std::min(kUnevenAtMost, kUneven * options_.tolerance)) {
-    reason += fmt::format("; WARNING: the worst contact is off by {:.2g} of the free-fall or approach speed: criterion nat_max sees it",
-                          worst);
+    reason += fmt::format(
+        "; WARNING: the worst contact is off by {:.2g} of the free-fall or approach speed: criterion nat_max sees it", worst);
   }
   return reason;
 }

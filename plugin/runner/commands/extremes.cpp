@@ -30,8 +30,8 @@ int Extremes(const ExtremesRequest& request) {
   std::filesystem::create_directories(request.out, failure);
   if (failure) throw Error(fmt::format("--out: cannot make the folder '{}': {}", request.out.string(), failure.message()));
   const RunLimits limits{.max_iterations = request.quick ? 2000 : 20000};
-  fmt::print("{} cases, {} solvers; a cell: how it ended, decade of the error, iterations\n{}", map.cases.size(), map.columns.size(),
-             FormatHead(map));
+  fmt::print("{} cases, {} solvers; a cell: how it ended, decade of the error, iterations\n{}", map.cases.size(),
+             map.columns.size(), FormatHead(map));
   for (std::size_t row = 0; row < map.cases.size(); ++row) {
     map.outcomes.push_back(RunCase(map.cases[row], map.columns, registry, limits));
     fmt::print("{}", FormatRow(map, row));
@@ -39,8 +39,11 @@ int Extremes(const ExtremesRequest& request) {
   }
   WriteCsv(map, request.out / "extremes.csv");
   DrawMap(map, request.out / "extremes.png");
-  fmt::print("{}. holds   I incomplete   L iteration limit   S stalled   D diverged   W warned   R refused   ! silent miss   X broken\n"
-             "results  {}\n", FormatSummary(map), (request.out / "extremes.png").string());
+  fmt::print(
+      "{}. holds   I incomplete   L iteration limit   S stalled   D diverged   W warned   R refused   ! silent miss   X "
+      "broken\n"
+      "results  {}\n",
+      FormatSummary(map), (request.out / "extremes.png").string());
   return CountFailures(map) == 0 ? 0 : 1;
 }
 

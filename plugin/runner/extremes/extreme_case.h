@@ -25,10 +25,10 @@ struct ExtremeCase {
   std::string criterion = "nat_max";
   double tolerance = 1e-6;
   std::vector<std::pair<std::string, std::string>> options = {};  ///< given to the solvers that have them
-  std::string only_with = {};  ///< an option that a solver must have for this case
-  double extent = 10.0;        ///< [m] largest coordinate, whose rounding the gaps inherit
+  std::string only_with = {};                                     ///< an option that a solver must have for this case
+  double extent = 10.0;                                           ///< [m] largest coordinate, whose rounding the gaps inherit
   double amplification = 1.0;  ///< velocity of a body over the residual that a contact leaves
-  double lambda = 0.0;  ///< F = y - M_lambda V keeps momentum to lambda times the rounding
+  double lambda = 0.0;         ///< F = y - M_lambda V keeps momentum to lambda times the rounding
   bool feeds_energy = false;   ///< feedback of interpenetration does work
   bool quick = false;          ///< in the short version too
 };

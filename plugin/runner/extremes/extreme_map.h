@@ -17,7 +17,8 @@ struct ExtremeMap {
   std::vector<std::vector<Outcome>> outcomes;
 };
 
-/// One letter: '.' holds, I incomplete, L iteration limit, S stalled, D diverged, W warned, R refused, ! silent miss, X broken, ' ' none.
+/// One letter: '.' holds, I incomplete, L iteration limit, S stalled, D diverged, W warned, R refused, ! silent miss, X broken,
+/// ' ' none.
 char MarkOf(const Outcome& outcome);
 
 /// A line of the table: name, then mark, decade of the error and iterations of each column.

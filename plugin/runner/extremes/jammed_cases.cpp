@@ -9,8 +9,8 @@
 namespace nscdd {
 namespace {
 
-/// Touching disks between two fixed ones along the funicular curve of their weights (slopes of the links in equal steps): at rest,
-/// by normal forces alone.
+/// Touching disks between two fixed ones along the funicular curve of their weights (slopes of the links in equal steps): at
+/// rest, by normal forces alone.
 void BuildArch(int disks, double friction, reference::World* world) {
   world->gravity = {0.0, -kGravity};
   Vec2 centre{};
@@ -51,15 +51,17 @@ std::vector<ExtremeCase> JammedCases() {
   std::vector<ExtremeCase> cases;
   for (const double mu : {0.0, 0.5}) {
     for (const int disks : {3, 9}) {
-      cases.push_back(Make(fmt::format("arch of {} disks, mu {:g}", disks, mu),
-                           [=](reference::World* w) { BuildArch(disks, mu, w); }, disks == 9));
+      cases.push_back(Make(
+          fmt::format("arch of {} disks, mu {:g}", disks, mu), [=](reference::World* w) { BuildArch(disks, mu, w); },
+          disks == 9));
     }
   }
   for (const double angle : {45.0, 85.0, 89.9}) {
     for (const double mu : {0.0, 1.0}) {
       const double radians = angle * std::numbers::pi / 180.0;
-      cases.push_back(Make(fmt::format("wedge of {:g} degrees, mu {:g}", angle, mu),
-                           [=](reference::World* w) { BuildWedge(radians, mu, w); }, angle == 85.0));
+      cases.push_back(Make(
+          fmt::format("wedge of {:g} degrees, mu {:g}", angle, mu), [=](reference::World* w) { BuildWedge(radians, mu, w); },
+          angle == 85.0));
       cases.back().extent = 0.5 / std::cos(radians);
       cases.back().amplification = 1.0 / std::cos(radians);
     }

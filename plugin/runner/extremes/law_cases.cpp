@@ -93,6 +93,7 @@ ExtremeCase SpacedCradle() {
   c.truth = [](std::int64_t id) { return Twist{id == 4 ? 1.0 : 0.0, 0.0, 0.0}; };
   c.scale = 1.0;
   c.steps = 20;
+  c.quick = true;
   c.subdomains = "5x1";
   return c;
 }

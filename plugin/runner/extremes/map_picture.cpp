@@ -49,10 +49,12 @@ void DrawCell(const Outcome& o, Vec2 corner, Picture* picture) {
 
 void DrawLegend(double top, Picture* picture) {
   picture->SetColour(kInk);
-  picture->Text({10.0, top + 16.0}, "Cell: how it ended, largest error of a velocity over the scene's natural speed, iterations.", kFont);
+  picture->Text({10.0, top + 16.0},
+                "Cell: how it ended, largest error of a velocity over the scene's natural speed, iterations.", kFont);
   picture->Text({10.0, top + 32.0},
                 ". converged   I incomplete   L iteration limit   S stalled   D diverged   W converged, and a sentence warns   "
-                "R refused   red: wrong without a word", kFont);
+                "R refused   red: wrong without a word",
+                kFont);
   for (int decade = kSmallest; decade <= 0; ++decade) {
     const Vec2 corner{10.0 + 52.0 * (decade - kSmallest), top + 44.0};
     const Colour colour = ErrorColour(std::pow(10.0, decade));

@@ -9,7 +9,8 @@
 namespace nscdd {
 namespace {
 
-/// A disk in flight, hit from all sides alike: it flies on, and the petals with it. All its contacts lie in subdomains of their own.
+/// A disk in flight, hit from all sides alike: it flies on, and the petals with it. All its contacts lie in subdomains of their
+/// own.
 void BuildFlower(int petals, reference::World* world) {
   constexpr double kCentre = 4.0, kPetal = 0.5;
   const Vec2 flight{0.3, 0.1};
@@ -43,8 +44,8 @@ std::vector<ExtremeCase> PartitionCases() {
   }
   for (const char* grid : {"1x1", "1x4", "1x40", "40x40"}) {
     ExtremeCase c{.family = "subdomains", .name = fmt::format("column of 40, {}", grid), .build = [](reference::World* w) {
-      BuildStack(std::vector<Grain>(40), 0.0, {}, w);
-    }};
+                    BuildStack(std::vector<Grain>(40), 0.0, {}, w);
+                  }};
     c.subdomains = grid;
     c.extent = 40.0;
     cases.push_back(c);
@@ -54,9 +55,9 @@ std::vector<ExtremeCase> PartitionCases() {
     cases.back().quick = std::string(grid) == "8x8" || std::string(grid) == "40x40";
   }
   for (const char* grid : {"4x4", "16x16"}) {
-    ExtremeCase c{.family = "subdomains", .name = fmt::format("a disk shared by all, {}", grid), .build = [](reference::World* w) {
-      BuildFlower(16, w);
-    }};
+    ExtremeCase c{.family = "subdomains",
+                  .name = fmt::format("a disk shared by all, {}", grid),
+                  .build = [](reference::World* w) { BuildFlower(16, w); }};
     c.truth = [](std::int64_t) { return Twist{0.3, 0.1, 0.0}; };
     c.scale = 1.0;
     c.subdomains = grid;

@@ -38,7 +38,8 @@ std::string Name(SolveStatus status) {
 }
 
 /// Options of the case and of the column, those that the solver has.
-OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver, const RunLimits& limits) {
+OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver,
+                      const RunLimits& limits) {
   OptionList all = column.options;
   all.insert(all.end(), c.options.begin(), c.options.end());
   all.emplace_back("subdomains", c.subdomains);
@@ -161,7 +162,8 @@ Reference SolveTightly(const ExtremeCase& c, const SolverRegistry& registry) {
   ExtremeCase tight = c;
   tight.criterion = "nat_max";
   tight.tolerance = 1e-13;
-  for (const SolverColumn& column : {SolverColumn{"", "newton", {}}, SolverColumn{"", "nscd", {{"acceleration", "anderson"}}}}) {
+  for (const SolverColumn& column :
+       {SolverColumn{"", "newton", {}}, SolverColumn{"", "nscd", {{"acceleration", "anderson"}}}}) {
     const nscdd_solver_info& solver = *registry.Find(column.solver).info;
     CaseRun run(tight, registry, column.solver, OptionsFor(tight, column, solver, {200000}));
     const Outcome outcome = run.Run();
@@ -171,7 +173,8 @@ Reference SolveTightly(const ExtremeCase& c, const SolverRegistry& registry) {
 }
 
 void Judge(const ExtremeCase& c, double reference, Outcome* o) {
-  // What the criterion promises at a contact, in units of the scale, adds up along a chain; gaps carry the rounding of the coordinates.
+  // What the criterion promises at a contact, in units of the scale, adds up along a chain; gaps carry the rounding of the
+  // coordinates.
   const double count = std::max<double>(1.0, static_cast<double>(o->contacts));
   const double promise = c.criterion == "nat" ? std::min(0.1, 1e3 * c.tolerance) : 10.0 * (c.tolerance + reference);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + c.extent / (c.dt * c.scale));

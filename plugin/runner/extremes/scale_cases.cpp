@@ -27,7 +27,8 @@ std::vector<ExtremeCase> ScaleCases() {
   }
   // Lengths by L, times by sqrt(L): the same problem in other units, gravity unchanged.
   for (const double length : {1e-6, 1e-3, 1.0, 1e3}) {
-    ExtremeCase c = RestingPile("units", fmt::format("pile, radius {:g} m", 0.5 * length), {.radius = 0.5 * length, .friction = 0.3});
+    ExtremeCase c =
+        RestingPile("units", fmt::format("pile, radius {:g} m", 0.5 * length), {.radius = 0.5 * length, .friction = 0.3});
     c.dt = 0.01 * std::sqrt(length);
     c.scale = kGravity * c.dt;
     c.quick = length == 1e-6 || length == 1e3;

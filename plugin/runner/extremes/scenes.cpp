@@ -12,7 +12,8 @@ void AddFloor(reference::World* world, std::int64_t id, double height, double fr
   world->Add(floor);
 }
 
-reference::Body& AddGrain(reference::World* world, std::int64_t id, Vec2 centre, double radius, double friction, double density) {
+reference::Body& AddGrain(reference::World* world, std::int64_t id, Vec2 centre, double radius, double friction,
+                          double density) {
   reference::Body disk = reference::MakeDisk(id, centre, radius, density);
   disk.friction = friction;
   return world->Add(disk);

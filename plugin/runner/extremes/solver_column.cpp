@@ -38,7 +38,9 @@ const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::strin
 std::vector<SolverColumn> MakeColumns(const SolverRegistry& registry, const std::vector<std::string>& wanted) {
   std::vector<SolverColumn> columns = AllColumns(registry);
   if (wanted.empty()) return columns;
-  const auto fits = [](const SolverColumn& column, const std::string& word) { return word == column.name || word == column.solver; };
+  const auto fits = [](const SolverColumn& column, const std::string& word) {
+    return word == column.name || word == column.solver;
+  };
   for (const std::string& word : wanted) {
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& column) { return fits(column, word); })) continue;
     std::vector<std::string> names;
