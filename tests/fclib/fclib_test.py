@@ -145,6 +145,8 @@ def table():
               (SCENES / "rotating_box_730_frictionless.toml", "nsgs",
                ("--solver", "nscd", "--tolerance", "1e-12", "--max-iterations", 1000000), 1e-14, 400000),
               (SCENES / "rotating_box_730.toml", "nsgs",
+               ("--solver", "newton", "--option", "max_iterations=400", "--tolerance", "1e-10"), 1e-14, 400000),
+              (SCENES / "rotating_box_730.toml", "nsgs",
                ("--solver", "nscd", "--tolerance", "1e-6", "--max-iterations", 1000000), 1e-14, 400000)]
     print("| problem | contacts | Siconos' solver, iterations | nat of nscdd | nat of Siconos | distance of V |\n" + "| --- " * 6 + "|")
     with tempfile.TemporaryDirectory() as folder:

@@ -153,14 +153,14 @@ struct Host {
 
 /// Options that end soon.
 nscdd_create_arguments Arguments(ByteSource* in, const nscdd_host* host) {
-  static const std::array<const char*, 5> solvers = {"nscd", "nscdd", "fea", "rea", "iea"};
+  static const std::array<const char*, 6> solvers = {"nscd", "nscdd", "fea", "rea", "iea", "newton"};
   static const std::array<const char*, 5> grids = {"2x2", "1x1", "3x1", "1x5", "7x7"};
   static const std::array<const char*, 3> laws = {"gap", "strict", "feedback"};
   static const std::array<const char*, 2> interfaces = {"direct", "cg"};
   static std::array<const char*, 6> names = {"max_iterations", "normal_law", "subdomains", "interface", "cg_max_iterations",
                                              "max_interface_updates"};
   static std::array<const char*, 6> values = {"6", "", "", "", "6", "4"};
-  const std::size_t solver = in->UpTo(4);
+  const std::size_t solver = in->UpTo(5);
   values[1] = laws[in->UpTo(2)];
   values[2] = grids[in->UpTo(4)];
   values[3] = interfaces[in->UpTo(1)];
@@ -168,7 +168,7 @@ nscdd_create_arguments Arguments(ByteSource* in, const nscdd_host* host) {
   arguments.header = {sizeof arguments, NSCDD_ABI_MAJOR, NSCDD_ABI_MINOR};
   arguments.host = host;
   arguments.solver = solvers[solver];
-  arguments.option_count = solver == 0 ? 2 : solver == 1 ? 3 : solver == 3 ? 6 : 5;
+  arguments.option_count = solver == 0 || solver == 5 ? 2 : solver == 1 ? 3 : solver == 3 ? 6 : 5;
   arguments.option_names = names.data();
   arguments.option_values = values.data();
   return arguments;
@@ -195,8 +195,6 @@ void ReloadState(const nscdd_plugin& plugin, nscdd_solver* solver, ByteSource* i
   if (plugin.state_size(solver, &size) != NSCDD_OK) return;
   std::vector<std::uint8_t> bytes(size);
   CheckResult(plugin, solver, plugin.save_state(solver, bytes.data(), size));
-  const std::size_t changes = in->UpTo(6);
-  for (std::size_t k = 0; k < changes && size > 0; ++k) bytes[in->Word() % size] = in->Byte();
   if (in->Rarely()) bytes.resize(size - std::min<std::uint64_t>(size, in->Byte()));
   CheckResult(plugin, solver, plugin.load_state(solver, bytes.data(), bytes.size()));
 }

@@ -17,6 +17,7 @@ Options Few() {
 
 void Solve(ContactProblem problem) {
   SolveContactProblem(problem, Few<NscdOptions>());
+  SolveContactProblem(problem, Few<NewtonOptions>());
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) problem.subdomain.push_back(static_cast<int>(c % 3));
   SolveContactProblem(problem, Few<NscddOptions>());
   SolveContactProblem(problem, Few<FeaOptions>());

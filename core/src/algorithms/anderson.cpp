@@ -108,8 +108,8 @@ std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedStat
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     Part& part = parts_[e];
     const std::size_t n = part.weight.size();
-    double* g = &part.images[image_ * n];
-    double* df = &part.differences[slot * n];
+    double* g = part.images.data() + image_ * n;
+    double* df = part.differences.data() + slot * n;
     Pack(e, state, g);
     for (std::size_t k = 0; k < n; ++k) {
       const double f = g[k] - part.start[k];
@@ -121,7 +121,7 @@ std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedStat
     const int kept = has_residual_ ? std::min(count_ + 1, depth_) : 0;
     for (int age = 0; age < kept; ++age) {
       const int other = (slot + depth_ - age) % depth_;
-      sums[e][age] = Dot(part.weighted.data(), &part.differences[other * n], n);
+      sums[e][age] = Dot(part.weighted.data(), part.differences.data() + other * n, n);
     }
     sums[e][kNumbers - 2] = Dot(part.weighted.data(), part.residual.data(), n);
     for (std::size_t k = 0; k < n; ++k) part.weighted[k] = part.weight[k] * part.residual[k];
@@ -164,12 +164,12 @@ std::vector<double> Anderson::Coefficients() const {
 void Anderson::Combine(Part* part, const std::vector<double>& c) const {
   const std::size_t n = part->weight.size();
   std::vector<double>& s = part->start;
-  const double* g = &part->images[image_ * n];
+  const double* g = part->images.data() + image_ * n;
   const double first = c.empty() ? 1.0 : 1.0 - c.front();
   for (std::size_t k = 0; k < n; ++k) s[k] = first * g[k];
   for (std::size_t i = 0; i < c.size(); ++i) {
     const double a = c[i] - (i + 1 < c.size() ? c[i + 1] : 0.0);
-    g = &part->images[ImageSlot(static_cast<int>(i) + 1) * n];
+    g = part->images.data() + ImageSlot(static_cast<int>(i) + 1) * n;
     for (std::size_t k = 0; k < n; ++k) s[k] += a * g[k];
   }
 }

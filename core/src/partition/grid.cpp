@@ -26,8 +26,9 @@ double Grid::Wrap(double x) const {
 
 int Grid::Index(double x, double low, double width, int count) {
   if (!(width > 0.0)) return 0;
-  // Clamp before the conversion: far points do not fit into an int.
-  return static_cast<int>(std::clamp(std::floor((x - low) / width), 0.0, count - 1.0));
+  // Compare before the conversion: far points do not fit into an int, and of a box as wide as numbers go cells are no number.
+  const double cell = std::floor((x - low) / width);
+  return cell > 0.0 ? static_cast<int>(std::min(cell, count - 1.0)) : 0;
 }
 
 int Grid::CellOf(Vec2 point) const {

@@ -54,6 +54,16 @@ void CheckBodies(const BodyTable& t, const AdapterDescription& adapter) {
   }
 }
 
+void CheckDrift(const BodyTable& t, double half, const AdapterDescription& adapter) {
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const Pose& q = t.pose[i];
+    const Twist& v = t.velocity[i];
+    if (IsFinite(Pose{q.x + half * v.vx, q.y + half * v.vy, q.angle + half * v.spin})) continue;
+    Refuse(adapter, "ReadBodies", "body {} moves beyond the largest number within {} s; reduce the time step or its velocity", t.id[i],
+           half);
+  }
+}
+
 void CheckContacts(const ContactTable& t, const BodyTable& bodies, double alert, const AdapterDescription& adapter) {
   const std::size_t n = t.size();
   if (t.a.size() != n || t.b.size() != n || t.shape_a.size() != n || t.shape_b.size() != n || t.normal.size() != n ||

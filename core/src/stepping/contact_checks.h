@@ -13,7 +13,10 @@ namespace nscdd {
 /// platform_adapter.h: lengths of columns, ids, finite numbers, positive masses.
 void CheckBodies(const BodyTable& bodies, const AdapterDescription& adapter);
 
-/// The same for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a free body.
+/// Throws Error, naming the body, when its position after `half` [s] at its velocity is not finite.
+void CheckDrift(const BodyTable& bodies, double half, const AdapterDescription& adapter);
+
+/// As CheckBodies, for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a free body.
 /// Arms on free bodies need the capability `clusters`.
 void CheckContacts(const ContactTable& contacts, const BodyTable& bodies, double alert, const AdapterDescription& adapter);
 

@@ -160,6 +160,7 @@ void TimeStepper::Impl::Distribute(double dt) {
     BodyTable read;
     adapter_->ReadBodies(&read);
     CheckBodies(read, description_);
+    CheckDrift(read, (1.0 - stepping_.theta) * dt, description_);
     distribution_.TakeOver(std::move(read));
   });
   if (alert_ < 0.0) ChooseAlertDistance();
