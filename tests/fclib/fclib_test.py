@@ -155,7 +155,8 @@ def table():
         for source, solver, arguments, tolerance, iterations in [(scene, "lemke", TIGHT, 1e-13, 1000)] + cases:
             file, _ = export(folder, source, *arguments)
             r = siconos(file, solver, tolerance, iterations)
-            print(f"| {source.stem} | {r['contacts']} | {solver}, {r['siconos_iterations']} | {r['nat_ours']:.1e} | {r['nat_siconos']:.1e} | "
+            ours = f", solver {arguments[arguments.index('--solver') + 1]}" if "--solver" in arguments else ""
+            print(f"| {source.stem}{ours} | {r['contacts']} | {solver}, {r['siconos_iterations']} | {r['nat_ours']:.1e} | {r['nat_siconos']:.1e} | "
                   f"{r['velocity_distance']:.1e} |", flush=True)
 
 
