@@ -10,18 +10,18 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 
-measure() {  # scene, options
-  local scene=$1
-  shift
-  "$nscdd" tradeoff "sample_scenes/$scene.toml" --time-limit 300 --out "$work/$scene" "$@"
+measure() {  # scene, time limit [s], options
+  local scene=$1 limit=$2
+  shift 2
+  "$nscdd" tradeoff "sample_scenes/$scene.toml" --time-limit "$limit" --out "$work/$scene" "$@"
   cp "$work/$scene/tradeoff.csv" "$folder/$scene.csv"
   if [ -f "$work/$scene/tradeoff.png" ]; then cp "$work/$scene/tradeoff.png" "$folder/$scene.png"; fi
 }
 
-measure rotating_box_730 --steps 50 --problems 10 --repetitions 3
-measure rotating_box_730_frictionless --steps 50 --problems 10 --repetitions 3
-measure sloped_flow_750 --steps 50 --problems 10 --repetitions 3 --observable flow_rate
-measure drum --steps 150 --problems 10 --repetitions 3
-measure box_10k --steps 8 --problems 4 --repetitions 1
+measure rotating_box_730 300 --steps 50 --problems 10 --repetitions 3
+measure rotating_box_730_frictionless 300 --steps 50 --problems 10 --repetitions 3
+measure sloped_flow_750 300 --steps 50 --problems 10 --repetitions 3 --observable flow_rate
+measure drum 300 --steps 150 --problems 10 --repetitions 3
+measure box_10k 200 --steps 6 --problems 3 --repetitions 1  # single solves of newton and fea overrun it
 python3 tests/benchmark/fronts.py "$folder" > "$folder/FRONTS.md"
 echo "$folder/FRONTS.md"

@@ -30,7 +30,7 @@ struct Extent {
   double seconds;
 };
 constexpr Extent kFull{100, 20, 5, 600.0}, kQuick{5, 3, 1, 60.0};
-constexpr double kReferenceShare = 0.25;  // of the time limit at most
+constexpr double kReferenceShare = 0.3;  // of the time limit at most
 
 /// Options that say what problem a step is, not how it is solved.
 constexpr const char* kSteppingKeys[] = {"theta",         "normal_law",   "feedback_beta",

@@ -14,7 +14,7 @@ namespace nscdd {
 namespace {
 
 // What a step of the reference may take: about half a second of sweeps, some seconds of factorisations.
-constexpr double kContactUpdates = 4e7, kFactorisedContacts = 4e6;
+constexpr double kContactUpdates = 4e7, kFactorisedContacts = 1.5e6;
 
 std::string Clamped(double most, std::int64_t least, std::int64_t largest) {
   return fmt::format("{}", std::clamp(static_cast<std::int64_t>(most), least, largest));
@@ -58,7 +58,7 @@ Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts) 
        "newton",
        {{"tolerance", "1e-10"},
         {"interior_residual", "1e-5"},
-        {"max_iterations", Clamped(kFactorisedContacts / count, 150, 600)}}},
+        {"max_iterations", Clamped(kFactorisedContacts / count, 80, 600)}}},
       {"nscd anderson",
        "nscd",
        {{"acceleration", "anderson"}, {"tolerance", "1e-10"}, {"max_iterations", iterations}, {"test_every", "20"}}},
