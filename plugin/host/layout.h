@@ -30,10 +30,11 @@ double* AsDoubles(T* first) {
   return reinterpret_cast<double*>(first);
 }
 
+/// No structure that a host fills has grown since minor 0, so plugins of every minor take them.
 template <class Structure>
 Structure WithHeader() {
   Structure structure{};
-  structure.header = {sizeof(Structure), NSCDD_ABI_MAJOR, NSCDD_ABI_MINOR};
+  structure.header = {sizeof(Structure), NSCDD_ABI_MAJOR, 0};
   return structure;
 }
 

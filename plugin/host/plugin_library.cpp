@@ -52,6 +52,11 @@ void CheckHeader(const std::string& path, const nscdd_header& header, const Host
                              "sizeof(nscdd_plugin) and rebuild it",
                              header.struct_size, abi.major, abi.minor, abi.struct_size));
   }
+  if (header.abi_minor >= 1 && header.struct_size < sizeof(nscdd_plugin)) {
+    Refuse(path, fmt::format("its nscdd_plugin has {} bytes, its ABI {}.{} prescribes at least {}; set header.struct_size = "
+                             "sizeof(nscdd_plugin) and rebuild it",
+                             header.struct_size, header.abi_major, header.abi_minor, sizeof(nscdd_plugin)));
+  }
 }
 
 void CheckString(const std::string& path, const char* text, const std::string& what, bool may_be_empty) {
@@ -85,6 +90,7 @@ void CheckFunctions(const std::string& path, const nscdd_plugin& p) {
   need(p.save_state != nullptr, "save_state");
   need(p.load_state != nullptr, "load_state");
   need(p.last_error != nullptr, "last_error");
+  if (p.header.abi_minor >= 1) need(p.load_states != nullptr, "load_states");
 }
 
 void CheckOptions(const std::string& path, const nscdd_solver_info& solver) {
@@ -153,6 +159,13 @@ const nscdd_solver_info* PluginLibrary::FindSolver(const std::string& name) cons
     if (name == plugin_->solvers[i].name) return &plugin_->solvers[i];
   }
   return nullptr;
+}
+
+void PluginLibrary::RequireLoadStates() const {
+  if (plugin_->header.abi_minor >= 1) return;
+  Refuse(path_, fmt::format("it speaks ABI {}.{}, checkpoints need 1.1 (load_states); update the plugin, or run without "
+                            "checkpoints",
+                            plugin_->header.abi_major, plugin_->header.abi_minor));
 }
 
 void* PluginLibrary::FindSymbol(const char* name) const { return dlsym(library_, name); }

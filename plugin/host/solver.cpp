@@ -219,4 +219,15 @@ void Solver::LoadState(std::span<const std::byte> bytes) {
   Check("load_state", library_->plugin().load_state(handle_.get(), bytes.data(), bytes.size()));
 }
 
+void Solver::LoadStates(std::span<const std::span<const std::byte>> parts) {
+  library_->RequireLoadStates();
+  std::vector<const void*> bytes;
+  std::vector<std::uint64_t> sizes;
+  for (const auto part : parts) {
+    bytes.push_back(part.data());
+    sizes.push_back(part.size());
+  }
+  Check("load_states", library_->plugin().load_states(handle_.get(), parts.size(), bytes.data(), sizes.data()));
+}
+
 }  // namespace nscdd

@@ -4,8 +4,9 @@
  * description that lives as long as the library is loaded. Before anything else is called or read, both sides compare the
  * header (struct_size, abi_major, abi_minor) that begins every structure crossing the interface:
  *   - the majors must be equal;
- *   - the plugin's minor must be at least the minor that the host was written for (a host never needs more than it knows);
+ *   - the plugin's minor must be at least the one that the host needs; what a higher minor appended is used where it is there;
  *   - struct_size must be at least the size that this minor prescribes. New members are appended, never inserted.
+ * A structure's abi_minor is that of its newest member, so that an older plugin takes the structures that have not grown since.
  * Then the host compares mpi_library with its own, because communicators cross the interface.
  *
  * Conventions
@@ -27,7 +28,7 @@ extern "C" {
 #endif
 
 #define NSCDD_ABI_MAJOR 1u
-#define NSCDD_ABI_MINOR 0u
+#define NSCDD_ABI_MINOR 1u /* 1: load_states */
 #define NSCDD_ENTRY_SYMBOL "nscdd_plugin_entry"
 
 typedef enum nscdd_result {
@@ -285,12 +286,18 @@ typedef struct nscdd_plugin {
   /* Names: "bodies" and "contacts" (this rank's, after a step), "iterations" (residuals at each test of the last solve). */
   int32_t (*table)(nscdd_solver* solver, const char* name, nscdd_table* table);
 
-  /* What a continuation needs beside the host's bodies: impulses by key, interface impulses, counters. */
+  /* What a continuation needs beside the host's bodies, this rank's part: impulses by key, interface impulses, counters.
+   * load_state takes it back on as many ranks as before, each its own part. */
   int32_t (*state_size)(nscdd_solver* solver, uint64_t* size);
   int32_t (*save_state)(nscdd_solver* solver, void* bytes, uint64_t size);
   int32_t (*load_state)(nscdd_solver* solver, const void* bytes, uint64_t size);
 
   const char* (*last_error)(nscdd_solver* solver); /* never null; valid until the next call on the handle */
+
+  /* Since minor 1. Continues on any number of ranks: the parts that all ranks of the earlier run saved at the same time, each
+   * given to one rank; `count` of them here, maybe none. Bodies may be in the host of any rank, each in one. Nothing changes on
+   * failure. */
+  int32_t (*load_states)(nscdd_solver* solver, uint64_t count, const void* const* parts, const uint64_t* sizes);
 } nscdd_plugin;
 
 typedef const nscdd_plugin* (*nscdd_plugin_entry_function)(void);

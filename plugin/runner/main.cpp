@@ -1,5 +1,6 @@
 // The program `nscdd`. Exit codes: 0 fine; 2 bad input; 3 stopped because a step did not converge and the scene says to stop;
-// 1 anything that no input should cause, such as a solver that `extremes` finds wrong without a word.
+// 4 told to end by a signal, can be resumed; 1 anything that no input should cause, such as a solver that `extremes` finds wrong
+// without a word.
 
 #include <fmt/format.h>
 
@@ -57,7 +58,8 @@ class Program {
   explicit Program(const MpiSession& session) : session_(session) {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", "nscdd " NSCDD_VERSION);
-    app_.footer("Exit codes: 0 fine, 2 bad input, 3 stopped at a step that did not converge (on_nonconvergence = \"stop\").");
+    app_.footer("Exit codes: 0 fine, 2 bad input, 3 stopped at a step that did not converge (on_nonconvergence = \"stop\"), "
+                "4 ended by a signal and ready for --resume.");
     AddRun();
     AddCheck();
     AddSolvers();
@@ -94,13 +96,17 @@ class Program {
 
   void AddRun() {
     CLI::App* run = app_.add_subcommand("run", "Solve a scene step by step (also under mpirun)");
-    run->add_option("scene", run_.scene, "Scene file (TOML)")->required();
+    run->add_option("scene", run_.scene, "Scene file (TOML)");
+    run->add_option("--resume", run_.resume, "Go on with the unfinished run in this folder, instead of a scene");
     AddSolverOptions(run, &run_.solver);
     run->add_flag_callback("--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); },
                            "Begin every step from zero impulses");
     run->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
-    run->add_option("--steps", run_.steps, "Number of steps")->check(CLI::PositiveNumber);
+    run->add_option("--steps", run_.steps, "Number of steps in all, those before --resume included")
+        ->check(CLI::PositiveNumber);
     run->add_option("--save-every", run_.save_every, "Save every K-th step in results.h5 (default: first and last)")
+        ->check(CLI::PositiveNumber);
+    run->add_option("--checkpoint-every", run_.checkpoint_every, "Write a checkpoint every N-th step, for --resume")
         ->check(CLI::PositiveNumber);
     run->add_option("--out", run_.out, "Folder of the results (default: results/SCENE)");
     run->add_flag("--quiet", run_.quiet, "Print nothing but errors");

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -114,6 +116,20 @@ std::int32_t LoadState(nscdd_solver* solver, const void* bytes, std::uint64_t si
   });
 }
 
+std::int32_t LoadStates(nscdd_solver* solver, std::uint64_t count, const void* const* parts, const std::uint64_t* sizes) {
+  return WithHandle(solver, "load_states", [&](SolverHandle& handle) {
+    if (count > 0 && (parts == nullptr || sizes == nullptr)) {
+      throw BadCall("load_states: the pointer to the parts or their sizes is null");
+    }
+    std::vector<std::span<const std::byte>> given;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (parts[i] == nullptr) throw BadCall(fmt::format("load_states: the pointer to part {} is null", i));
+      given.emplace_back(static_cast<const std::byte*>(parts[i]), static_cast<std::size_t>(sizes[i]));
+    }
+    handle.LoadStates(given);
+  });
+}
+
 const char* LastError(nscdd_solver* solver) {
   return solver == nullptr ? "the solver handle is a null pointer; create one first" : solver->sentence.c_str();
 }
@@ -136,6 +152,7 @@ nscdd_plugin MakeDescription() {
   plugin.save_state = SaveState;
   plugin.load_state = LoadState;
   plugin.last_error = LastError;
+  plugin.load_states = LoadStates;
   return plugin;
 }
 

@@ -137,4 +137,6 @@ void SolverHandle::LoadState(const void* bytes, std::uint64_t size) {
   stepper("load_state").LoadState({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
 }
 
+void SolverHandle::LoadStates(std::span<const std::span<const std::byte>> parts) { stepper("load_states").LoadState(parts); }
+
 }  // namespace nscdd

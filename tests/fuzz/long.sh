@@ -6,7 +6,7 @@ cd "$(dirname "$(readlink -f "$0")")/../.."
 seconds=${1:-3600}
 shift || true
 targets=("$@")
-((${#targets[@]})) || targets=(packing options scene problem host)
+((${#targets[@]})) || targets=(packing options scene problem checkpoint host)
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz
 for target in "${targets[@]}"; do

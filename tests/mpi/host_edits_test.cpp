@@ -94,6 +94,109 @@ int CheckContinuation(Communicator* c) {
   return ReportCheck("continuation from the owned bodies and the saved state", !ghosts.empty() && Gather(host) == Gather(other), c);
 }
 
+/// What all ranks of a run leave behind, on every rank.
+struct Saved {
+  std::vector<reference::Body> bodies;
+  std::vector<std::vector<std::byte>> parts;
+};
+
+Saved SaveAll(const RankedHost& host) {
+  Saved saved;
+  std::vector<std::vector<double>> rows = Gather(host);  // id, pose, velocity first
+  const std::vector<reference::Body> all = MakeBodies({});
+  for (const auto& row : rows) {
+    reference::Body body = *std::ranges::find(all, static_cast<std::int64_t>(row[0]), &reference::Body::id);
+    body.pose = {row[1], row[2], row[3]};
+    body.velocity = {row[4], row[5], row[6]};
+    saved.bodies.push_back(body);
+  }
+  for (int rank = 0; rank < host.communicator->size(); ++rank) {
+    std::vector<std::byte> part;
+    if (rank == host.communicator->rank()) part = host.stepper->SaveState();
+    host.communicator->Broadcast(rank, &part);
+    saved.parts.push_back(std::move(part));
+  }
+  return saved;
+}
+
+/// Goes on from `saved` on the ranks of `c`: body k on rank (7 k + 1) % size, part i on rank (i + shift) % size.
+std::vector<std::vector<double>> GoOn(const Saved& saved, int shift, const NscddOptions& options, Communicator* c) {
+  RankedHost host({}, options, c);
+  const auto is_mine = [c](std::size_t number) { return static_cast<int>(number) % c->size() == c->rank(); };
+  for (const reference::Body& b : saved.bodies) {
+    if (host.world.Find(b.id) != nullptr) host.world.Remove(b.id);
+  }
+  for (std::size_t k = 0; k < saved.bodies.size(); ++k) {
+    if (is_mine(7 * k + 1)) host.world.Add(saved.bodies[k]);
+  }
+  host.Start(options);
+  std::vector<std::span<const std::byte>> mine;
+  for (std::size_t i = 0; i < saved.parts.size(); ++i) {
+    if (is_mine(i + static_cast<std::size_t>(shift))) mine.emplace_back(saved.parts[i]);
+  }
+  host.stepper->LoadState(mine);
+  host.Step(6);
+  return Gather(host);
+}
+
+int CheckContinuationOnOtherRanks(Communicator* c) {
+  int failures = 0;
+  const NscddOptions options = Strips(3, 2);
+  RankedHost host({}, options, c);
+  SerialCommunicator serial;
+  RankedHost whole({}, options, &serial);
+  host.Step(6);
+  whole.Step(6);
+  const Saved of_four = SaveAll(host), of_one = SaveAll(whole);
+  whole.Step(6);
+  const auto expected = Gather(whole);
+  for (const int ranks : {1, 2, 3, 4}) {
+    MPI_Comm part = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, c->rank() < ranks ? 0 : 1, 0, &part);
+    MpiCommunicator group(part);
+    const auto same = [&](const Saved& saved, int shift) {
+      double mine = c->rank() >= ranks || GoOn(saved, shift, options, &group) == expected ? 1.0 : 0.0;
+      c->AllReduceMin({&mine, 1});
+      return mine == 1.0;
+    };
+    failures += ReportCheck(fmt::format("what 4 ranks saved goes on on {}", ranks), same(of_four, 0) && same(of_four, 1), c);
+    failures += ReportCheck(fmt::format("what 1 rank saved goes on on {}", ranks), same(of_one, 0) && same(of_one, 2), c);
+    MPI_Comm_free(&part);
+  }
+  return failures;
+}
+
+// Every rank refuses, whichever was given the wrong part, and its solver is what it was.
+int CheckWrongParts(Communicator* c) {
+  const NscddOptions options = Strips(3, 2);
+  RankedHost host({}, options, c), twin({}, options, c), later({}, options, c);
+  host.Step(3);
+  twin.Step(3);
+  later.Step(4);
+  const Saved saved = SaveAll(host), newer = SaveAll(later);
+  int failures = 0;
+  using Parts = std::vector<std::vector<std::byte>>;
+  const auto refused = [&](const char* what, const Parts& parts, const std::string& fragment) {
+    std::vector<std::span<const std::byte>> mine;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (static_cast<int>(i) % c->size() == c->rank()) mine.emplace_back(parts[i]);
+    }
+    const std::string refusal = RefusalOf([&] { host.stepper->LoadState(mine); });
+    failures += ReportCheck(what, refusal.find(fragment) != std::string::npos, c, refusal);
+  };
+  const auto& p = saved.parts;
+  refused("no part", {}, "no saved state");
+  refused("a part is missing", {p[0], p[1], p[2]}, "4 ranks saved the state and 3 parts");
+  refused("a part is there twice", {p[0], p[1], p[2], p[2]}, "give the part of every rank");
+  refused("too many parts", {p[0], p[1], p[2], p[3], p[0]}, "4 ranks saved the state and 5 parts");
+  refused("parts of two moments", {p[0], p[1], newer.parts[2], p[3]}, "of different moments");
+  refused("a part is cut short", {p[0], {p[1].begin(), p[1].end() - 8}, p[2], p[3]}, "rank 1: ");
+  host.Step(3);
+  twin.Step(3);
+  failures += ReportCheck("refused parts change nothing", Gather(host) == Gather(twin), c);
+  return failures;
+}
+
 // A failure on rank 2 is the same Error everywhere; once the cause is gone the run goes on as if nothing had been.
 int CheckFailures(Communicator* c) {
   int failures = 0;
@@ -213,7 +316,8 @@ int main(int argc, char** argv) {
   {
     using namespace nscdd::test;
     nscdd::MpiCommunicator communicator(MPI_COMM_WORLD);
-    for (const auto check : {CheckEdits, CheckContinuation, CheckFailures, CheckBadHosts, CheckRefusals}) {
+    for (const auto check : {CheckEdits, CheckContinuation, CheckContinuationOnOtherRanks, CheckWrongParts, CheckFailures,
+                             CheckBadHosts, CheckRefusals}) {
       const std::string unexpected = RefusalOf([&] { failures += check(&communicator); });  // the same on all ranks
       failures += ReportCheck("no unexpected error", unexpected.empty(), &communicator, unexpected);
     }

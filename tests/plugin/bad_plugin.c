@@ -1,4 +1,5 @@
 /* A plugin that does nothing; with one of the FAULT_ definitions it is one that a host must refuse. */
+#include <stddef.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -33,6 +34,9 @@ static int32_t Table(nscdd_solver* s, const char* n, nscdd_table* t) { return (v
 static int32_t StateSize(nscdd_solver* s, uint64_t* n) { return (void)s, (void)n, NSCDD_FAILED; }
 static int32_t SaveState(nscdd_solver* s, void* b, uint64_t n) { return (void)s, (void)b, (void)n, NSCDD_FAILED; }
 static int32_t LoadState(nscdd_solver* s, const void* b, uint64_t n) { return (void)s, (void)b, (void)n, NSCDD_FAILED; }
+static int32_t LoadStates(nscdd_solver* s, uint64_t c, const void* const* p, const uint64_t* n) {
+  return (void)s, (void)c, (void)p, (void)n, NSCDD_FAILED;
+}
 static const char* LastError(nscdd_solver* s) { return (void)s, "nothing is implemented"; }
 
 static const nscdd_option options[] = {
@@ -51,6 +55,17 @@ static const nscdd_plugin plugin = {
     (const char*)8,
     (const char*)8,
     (const char*)8,
+#elif defined(FAULT_OLD_MINOR)
+    /* Sound, and of the time before load_states. */
+    {offsetof(nscdd_plugin, load_states), NSCDD_ABI_MAJOR, 0},
+    "old",
+    "1",
+    "",
+#elif defined(FAULT_SHORT_MINOR)
+    {offsetof(nscdd_plugin, load_states), NSCDD_ABI_MAJOR, 1},
+    "bad",
+    "1",
+    "",
 #elif defined(FAULT_TRUNCATED)
     {sizeof(nscdd_header) + 8, NSCDD_ABI_MAJOR, NSCDD_ABI_MINOR},
     (const char*)8,
@@ -95,7 +110,8 @@ static const nscdd_plugin plugin = {
     StateSize,
     SaveState,
     LoadState,
-    LastError};
+    LastError,
+    LoadStates};
 
 #endif /* FAULT_NULL_ENTRY */
 

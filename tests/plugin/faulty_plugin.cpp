@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -96,6 +97,12 @@ std::int32_t LoadState(nscdd_solver* solver, const void* bytes, std::uint64_t si
   return Is("any_state") && bytes != nullptr ? NSCDD_OK : result;
 }
 
+std::int32_t LoadStates(nscdd_solver* solver, std::uint64_t count, const void* const* parts, const std::uint64_t* sizes) {
+  if (Is("no_load_states") && parts != nullptr && count > 0) return NSCDD_OK;
+  const std::int32_t result = real->load_states(solver, count, parts, sizes);
+  return Is("any_states") && parts != nullptr ? NSCDD_OK : result;
+}
+
 const char* LastError(nscdd_solver* solver) {
   if (Is("silent")) return "";
   return real->last_error(solver);
@@ -123,6 +130,11 @@ const nscdd_plugin* MakeDescription() {
   plugin.save_state = SaveState;
   plugin.load_state = LoadState;
   plugin.last_error = LastError;
+  plugin.load_states = LoadStates;
+  if (Is("old_minor")) {
+    plugin.header = {offsetof(nscdd_plugin, load_states), NSCDD_ABI_MAJOR, 0};
+    plugin.load_states = nullptr;
+  }
   return &plugin;
 }
 

@@ -41,16 +41,22 @@ TEST(PluginLibrary, RefusesWhatIsNoPlugin) {
 
 TEST(PluginLibrary, RefusesAnotherAbi) {
   ExpectRefused("wrong_major", {"ABI major 2", "needs 1"});
-  ExpectRefused("truncated", {"24 bytes", std::to_string(sizeof(nscdd_plugin))});
+  ExpectRefused("truncated", {"24 bytes", std::to_string(HostAbi().struct_size)});
+  ExpectRefused("short_minor", {"ABI 1.1", std::to_string(sizeof(nscdd_plugin))});
   ExpectRefused("other_mpi", {"Some Other MPI 7.0", HostAbi().mpi_library, "rebuild the plugin"});
 }
 
 TEST(PluginLibrary, RefusesAMinorBelowTheNeeded) {
   HostAbi newer;
-  newer.minor = NSCDD_ABI_MINOR + 1;
-  ExpectError(
-      [&] { PluginLibrary::Load(Bad("old_minor"), newer); },
-      {"old_minor.so", "ABI 1." + std::to_string(NSCDD_ABI_MINOR), "at least 1." + std::to_string(NSCDD_ABI_MINOR + 1)});
+  newer.minor = 1;
+  ExpectError([&] { PluginLibrary::Load(Bad("old_minor"), newer); }, {"old_minor.so", "ABI 1.0", "at least 1.1"});
+}
+
+TEST(PluginLibrary, AnOlderMinorServesButForCheckpoints) {
+  const auto old = PluginLibrary::Load(Bad("old_minor"));
+  EXPECT_STREQ(old->plugin().name, "old");
+  ExpectError([&] { old->RequireLoadStates(); }, {"old_minor.so", "ABI 1.0", "checkpoints need 1.1", "update"});
+  EXPECT_NO_THROW(PluginLibrary::Load(Bad("sound"))->RequireLoadStates());
 }
 
 TEST(PluginLibrary, RefusesHolesInTheDescription) {

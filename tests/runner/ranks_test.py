@@ -2,11 +2,8 @@
 
 import unittest
 
+from interrupted import without_seconds
 from program import SCENES, ProgramTest, nscdd, read_csv
-
-
-def without_seconds(path):
-    return [{k: v for k, v in row.items() if not k.startswith("seconds_")} for row in read_csv(path)]
 
 
 class Ranks(ProgramTest):

@@ -31,7 +31,7 @@ TEST(AutoWatcher, StaysWhileAllIsWell) {
   Watcher watcher(Depth(1e-2));  // 5e-3 m
   EXPECT_FALSE(watcher.IsTooDeep(Step(4.9e-3)));
   EXPECT_EQ(watcher.Judge(Step(4.9e-3), false, 0.0, 1.0, true, true), Verdict::kStay);
-  EXPECT_EQ(watcher.escalations(), 0);
+  EXPECT_EQ(watcher.state().escalations, 0);
   EXPECT_NE(watcher.Summary("x", "y").find("no step of 1 went deeper than wished"), std::string::npos);
 }
 
@@ -39,7 +39,7 @@ TEST(AutoWatcher, ClimbsWhenTheSolverLetsContactsDeepen) {
   Watcher watcher(Depth(1e-2));
   EXPECT_EQ(watcher.Judge(Step(6e-3), false, 2e-3, 1.0, true, true), Verdict::kClimb);
   EXPECT_EQ(watcher.Judge(Step(8e-3), false, 2e-3, 1.0, false, true), Verdict::kStay);  // at the top: said, not done
-  EXPECT_EQ(watcher.escalations(), 1);
+  EXPECT_EQ(watcher.state().escalations, 1);
   EXPECT_NE(watcher.Summary("x", "y").find("2 of 2 steps went deeper"), std::string::npos);
 }
 
@@ -70,10 +70,9 @@ TEST(AutoWatcher, KeepsTheBudget) {
   for (int k = 0; k < 9; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kClimb);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 2e-3, true, true), Verdict::kDescend);
-  for (int k = 0; k < 30; ++k)
-    EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
-  EXPECT_EQ(watcher.escalations(), 1);
-  EXPECT_EQ(watcher.descents(), 1);
+  for (int k = 0; k < 30; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
+  EXPECT_EQ(watcher.state().escalations, 1);
+  EXPECT_EQ(watcher.state().descents, 1);
   EXPECT_NE(watcher.Summary("x", "y").find("1 of 41 steps took longer"), std::string::npos);
 }
 

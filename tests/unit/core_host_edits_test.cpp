@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -187,6 +188,10 @@ TEST(Continuation, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   longer.push_back(std::byte{0});
   EXPECT_NE(refused(longer), "");
   ExpectContains(refused(other.stepper().SaveState()), "3x3");
+  const std::span<const std::byte> part(saved);
+  const std::array twice{part, part};
+  ExpectContains(Refusal([&] { pile.stepper().LoadState(twice); }), "1 ranks saved the state and 2 parts");
+  ExpectContains(Refusal([&] { pile.stepper().LoadState(std::span<const std::span<const std::byte>>{}); }), "no saved state");
   pile.Step(3, kDt);
   twin.Step(3, kDt);
   ExpectSameBodies(&pile, &twin);

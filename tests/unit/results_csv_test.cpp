@@ -68,6 +68,70 @@ TEST(StepsCsv, WhatDependsOnTheRanksIsElsewhere) {
   EXPECT_EQ(lines[1], lines[2]);
 }
 
+StepRow RowOfStep(std::int64_t step) {
+  StepRow row;
+  row.step = step;
+  row.time = 0.1 * static_cast<double>(step);
+  row.nat = 1.0 / static_cast<double>(3 * step);
+  row.worst_body_a = -1;
+  row.status = "stalled";
+  row.reason = "";
+  return row;
+}
+
+TEST(StepsCsv, GoesOnWhereItWasKept) {
+  const TemporaryFolder folder;
+  std::vector<FileExtent> kept;
+  std::string text;
+  {
+    ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+    StepsCsv steps(&results);
+    for (const std::int64_t step : {1, 2}) steps.Append(RowOfStep(step));
+    kept = steps.Keep();
+    text = TextOf(folder.path() / "steps.csv.part");
+    steps.Append(RowOfStep(3));
+    results.KeepParts();
+  }
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].size, text.size());
+  EXPECT_NO_THROW(CheckExtent(folder.path(), kept[0]));
+  std::vector<StepRow> rows;
+  ForEachStepRow(folder.path(), kept, [&](const StepRow& row) { rows.push_back(row); });
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].step, 2);
+  EXPECT_EQ(rows[1].nat, 1.0 / 6.0);  // every bit survives
+  EXPECT_EQ(rows[1].worst_body_a, -1);
+  EXPECT_EQ(rows[1].status, "stalled");
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());  // takes the parts away
+  std::ofstream(folder.path() / "steps.csv.part") << text << "3,half a row";
+  StepsCsv steps(&results, kept);
+  EXPECT_EQ(TextOf(folder.path() / "steps.csv.part"), text);
+  steps.Append(RowOfStep(3));
+  const std::vector<FileExtent> later = steps.Keep();
+  EXPECT_NO_THROW(CheckExtent(folder.path(), later[0]));  // its checksum is that of all rows
+  EXPECT_EQ(Split(TextOf(folder.path() / "steps.csv.part"), '\n').size(), 4u);
+}
+
+TEST(StepsCsv, RowsOfAnotherProgramAreNamed) {
+  const TemporaryFolder folder;
+  ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
+  StepsCsv steps(&results);
+  steps.Append(RowOfStep(1));
+  steps.Keep();
+  const std::string good = TextOf(folder.path() / "steps.csv.part");
+  const auto refusal = [&](const std::string& text) {
+    std::ofstream(folder.path() / "steps.csv.part") << text;
+    const std::vector<FileExtent> extent = {ExtentOf(folder.path(), "steps.csv.part")};
+    return SentenceOf([&] { ForEachStepRow(folder.path(), extent, [](const StepRow&) {}); });
+  };
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_NE(refusal("a" + good).find("steps.csv.part:1: "), std::string::npos);
+  EXPECT_NE(refusal(good + "2,3\n").find("steps.csv.part:3: "), std::string::npos);
+  EXPECT_NE(refusal(good + "x" + good.substr(good.find('\n') + 2)).find("steps.csv.part:3: "), std::string::npos);
+  EXPECT_NE(refusal(good.substr(0, good.size() - 1)), "");
+  EXPECT_NE(refusal(""), "");
+}
+
 TEST(FinalCsv, SortedWithSeventeenDigits) {
   const TemporaryFolder folder;
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());

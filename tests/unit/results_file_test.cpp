@@ -22,6 +22,42 @@ void WriteSample(const fs::path& folder) {
   results.Finish();
 }
 
+/// The same in three segments, the last of which is written twice, as after a kill.
+void WriteInSegments(const fs::path& folder) {
+  const RunDescription run{"sample", "nscdd", "0.1.0", 2, 3, 8.0, -1.0};
+  ResultsFolder results(folder, IdentityOf("sample"), RankGroup());
+  std::vector<FileExtent> kept;
+  {
+    ResultsFile file(&results, run, SampleShapes(), ResultsFile::Mode::kSegments);
+    file.Keep();
+    file.Save({1, 0.25, 1.0}, SampleGrains(), {});
+    kept = file.Keep();
+    EXPECT_EQ(file.Keep().size(), 2u);  // nothing came in between
+    file.Save({50, 99.0, 1.0}, {}, {});
+  }
+  EXPECT_EQ(kept.size(), 2u);
+  for (const FileExtent& extent : kept) EXPECT_NO_THROW(CheckExtent(folder, extent));
+  ResultsFile file(&results, run, kept);
+  file.Save({50, 12.5, 1.0}, SampleGrains(), SampleContacts());
+  file.Close();
+  results.Finish();
+}
+
+TEST(ResultsFile, OfSegmentsIsTheSame) {
+  const TemporaryFolder folder;
+  WriteSample(folder.path() / "whole");
+  WriteInSegments(folder.path() / "segments");
+  EXPECT_EQ(TextOf(folder.path() / "segments/results.xdmf"), TextOf(folder.path() / "whole/results.xdmf"));
+  const ResultsReader whole(folder.path() / "whole"), segments(folder.path() / "segments");
+  EXPECT_EQ(segments.steps(), whole.steps());
+  EXPECT_EQ(segments.run().period_origin, whole.run().period_origin);
+  EXPECT_EQ(segments.ReadShapes().x1, whole.ReadShapes().x1);
+  EXPECT_EQ(segments.ReadStep(50).time, 12.5);
+  EXPECT_EQ(segments.ReadGrains(50).x, whole.ReadGrains(50).x);
+  EXPECT_EQ(segments.ReadContacts(50).impulse_n, whole.ReadContacts(50).impulse_n);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "segments"), {}), 3);  // no segment is left
+}
+
 TEST(ResultsFile, IsReadBack) {
   const TemporaryFolder folder;
   WriteSample(folder.path());

@@ -141,6 +141,71 @@ TEST(ResultsFolder, TwoRunsAtATimeAreRefused) {
   EXPECT_EQ(TextOf(folder.path() / "steps.csv"), "of the first");
 }
 
+TEST(ResultsFolder, CheckpointsOfAnUnfinishedRunAreNotLost) {
+  const TemporaryFolder folder;
+  {
+    ResultsFolder results(folder.path(), IdentityOf("drum"), RankGroup());
+    for (const char* name : {"checkpoint_000000.ckpt", "checkpoint_000020.ckpt", "results_000000.h5.part"}) {
+      std::ofstream(folder.path() / name) << "x";
+    }
+    results.KeepParts();
+  }
+  const std::string sentence = SentenceOf([&] { ResultsFolder(folder.path(), IdentityOf("drum"), RankGroup()); });
+  EXPECT_NE(sentence.find("checkpoint after step 20"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("--resume"), std::string::npos) << sentence;
+  EXPECT_TRUE(fs::exists(folder.path() / "checkpoint_000020.ckpt"));
+  {
+    ResultsFolder results(folder.path(), RankGroup());  // goes on
+    EXPECT_NE(SentenceOf([&] { ResultsFolder(folder.path(), RankGroup()); }).find("another run is writing"), std::string::npos);
+  }
+  EXPECT_TRUE(fs::exists(folder.path() / "checkpoint_000020.ckpt"));  // it failed at once, and nothing is gone
+  ResultsFolder results(folder.path(), RankGroup());
+  results.Identify(IdentityOf("drum"));
+  std::ofstream(results.Stage("steps.csv")) << "1";
+  results.Finish();
+  EXPECT_EQ(NamesIn(folder.path()), (std::set<std::string>{"run.json", "steps.csv"}));
+}
+
+TEST(ResultsFolder, NothingToResumeIsASentence) {
+  const TemporaryFolder folder;
+  const auto sentence = [&](const fs::path& where) { return SentenceOf([&] { ResultsFolder(where, RankGroup()); }); };
+  EXPECT_NE(sentence(folder.path() / "no").find("there is no folder"), std::string::npos);
+  EXPECT_NE(sentence(folder.path()).find("holds no run"), std::string::npos);
+  {
+    ResultsFolder results(folder.path(), IdentityOf("drum"), RankGroup());
+    results.KeepParts();
+  }
+  EXPECT_NE(sentence(folder.path()).find("has no checkpoint"), std::string::npos);
+  RunScene(folder.path(), "drum", "steps.csv", "1");
+  EXPECT_NE(sentence(folder.path()).find("has finished (3 steps)"), std::string::npos) << sentence(folder.path());
+  EXPECT_EQ(NamesIn(folder.path()), (std::set<std::string>{"run.json", "steps.csv"}));
+}
+
+// Whenever it happens, a run that has ended is found complete.
+TEST(ResultsFolder, AKillAmongTheRenamesIsMadeGood) {
+  const TemporaryFolder folder;
+  RunScene(folder.path(), "drum", "tradeoff.csv", "of an earlier run");
+  std::string marker;
+  {
+    const fs::path other = folder.path() / "other";
+    ResultsFolder results(other, IdentityOf("drum"), RankGroup());
+    for (const char* name : {"final.csv", "steps.csv"}) std::ofstream(results.Stage(name)) << "new";
+    results.Finish();
+    marker = TextOf(other / "run.json");
+    fs::remove_all(other);
+  }
+  std::ofstream(folder.path() / "run.json.finished") << marker;
+  std::ofstream(folder.path() / "run.json.part") << "";
+  std::ofstream(folder.path() / "final.csv") << "new";  // has its name already
+  std::ofstream(folder.path() / "steps.csv.part") << "new";
+  std::ofstream(folder.path() / "checkpoint_000020.ckpt") << "x";
+  const std::string sentence = SentenceOf([&] { ResultsFolder(folder.path(), RankGroup()); });
+  EXPECT_NE(sentence.find("has finished"), std::string::npos) << sentence;
+  EXPECT_EQ(NamesIn(folder.path()), (std::set<std::string>{"final.csv", "run.json", "steps.csv"}));
+  EXPECT_EQ(TextOf(folder.path() / "steps.csv"), "new");
+  EXPECT_EQ(TextOf(folder.path() / "run.json"), marker);
+}
+
 TEST(ResultsFolder, HashSeesEveryByte) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "a") << "a";

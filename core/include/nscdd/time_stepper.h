@@ -60,10 +60,15 @@ class TimeStepper {
   const StepReport& Step(double dt);
 
   /// What a continuation needs beside the hosts' bodies, this rank's part: step and time counters, cuts of the grid, impulses by
-  /// key, interface impulses by (body, subdomain). LoadState() replaces them, on the same number of ranks with each rank's owned bodies
-  /// in its host and no ghosts; throws Error, and changes nothing, if the bytes are not those of SaveState() with this partition.
+  /// key, interface impulses by (body, subdomain). Factorisations are not in it: none outlives a step.
   std::vector<std::byte> SaveState() const;
-  void LoadState(std::span<const std::byte> bytes);
+  /// Replaces them by the parts that the ranks of an earlier run saved at the same time, each given to one rank of this run;
+  /// the number of ranks may be another one. The bodies are in the hosts, each in one, on any rank, and there are no ghosts.
+  /// Collective; throws the same Error on all ranks, and changes nothing, if the bytes are not all those of SaveState() with
+  /// this partition.
+  void LoadState(std::span<const std::span<const std::byte>> parts);
+  /// On as many ranks as before, each with its own part.
+  void LoadState(std::span<const std::byte> part);
 
   /// Of the last step, this rank's part: bodies by id, contacts by (subdomain, key). Valid until the next Step().
   std::span<const BodyRecord> bodies() const;

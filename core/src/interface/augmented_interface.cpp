@@ -31,11 +31,19 @@ std::vector<double> RestoringSpeeds(const PartitionedProblem& problem, const Sub
   return speeds;
 }
 
+/// A numeric factorisation does not outlive the solve: work is counted the same way in a run that was interrupted and resumed.
+void ForgetValues(InterfaceWorkspace* workspace) {
+  if (workspace->shared) workspace->shared->ForgetValues();
+  for (const auto& solver : workspace->local) solver->ForgetValues();
+  for (const auto& solver : workspace->interior) solver->ForgetValues();
+}
+
 }  // namespace
 
 AugmentedInterface::AugmentedInterface(const PartitionedProblem& problem, const AugmentedInterfaceOptions& options,
                                        Communicator* communicator, InterfaceWorkspace* workspace)
     : problem_(problem), options_(options), workspace_(workspace) {
+  ForgetValues(workspace);
   const double mass = options.reference_mass > 0.0 ? options.reference_mass : problem.mean_mass;
   for (const SubdomainProblem& p : problem.subdomains) parts_.emplace_back(p, options, mass, RestoringSpeeds(problem, p, options));
   if (options.solve == InterfaceSolve::kDirect) {

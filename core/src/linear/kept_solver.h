@@ -7,7 +7,8 @@
 
 namespace nscdd {
 
-/// A linear solver that keeps its symbolic factorisation while the pattern stays, and its numeric one while the values stay too.
+/// A linear solver that keeps its symbolic factorisation while the pattern stays, and its numeric one while the values stay too
+/// (until it is told to forget them).
 class KeptSolver {
  public:
   /// `communicator`: of the ranks that share the solver's matrix.
@@ -18,6 +19,8 @@ class KeptSolver {
   void Set(int n, std::vector<std::int32_t> row, std::vector<std::int32_t> column, std::vector<double> values);
   /// The same with the pattern of before.
   void SetValues(std::vector<double> values);
+  /// The next Set() factorises whatever its values are. On all ranks that share the matrix.
+  void ForgetValues() { values_.clear(); }
   void Solve(std::span<double> x) { solver_->Solve(x); }
 
   bool is_distributed() const { return solver_->is_distributed(); }

@@ -22,6 +22,7 @@
 #include "stepping/final_gap.h"
 #include "stepping/impulse_cache.h"
 #include "stepping/reconcile.h"
+#include "stepping/saved_state.h"
 
 namespace nscdd {
 namespace {
@@ -36,8 +37,6 @@ void Require(bool holds, const std::string& sentence) {
 bool IsFinite(const BodyRecord& b) {
   return std::isfinite(b.pose.x + b.pose.y + b.pose.angle) && std::isfinite(b.velocity.vx + b.velocity.vy + b.velocity.spin);
 }
-
-constexpr std::uint64_t kStateMark = 0x315453444453434e;  // "NCSDDST1": these bytes are a saved state of this layout
 
 }  // namespace
 
@@ -89,7 +88,7 @@ class TimeStepper::Impl {
   }
 
   std::vector<std::byte> SaveState() const;
-  void LoadState(std::span<const std::byte> bytes);
+  void LoadState(std::span<const std::span<const std::byte>> parts);
 
   std::vector<BodyRecord> body_records_;
   std::vector<ContactRecord> contact_records_;
@@ -135,6 +134,7 @@ class TimeStepper::Impl {
   Distribution distribution_;
   Grid grid_;
   ImpulseCache cache_;
+  bool is_cache_scattered_ = false;  // loaded: its entries may be on other ranks than their bodies
   InterfaceWorkspace workspace_;
   double alert_ = -1.0;  // [m] < 0: not chosen yet
   std::int64_t step_ = 0;
@@ -163,6 +163,7 @@ void TimeStepper::Impl::Distribute(double dt) {
     CheckDrift(read, (1.0 - stepping_.theta) * dt, description_);
     distribution_.TakeOver(std::move(read));
   });
+  if (is_cache_scattered_) DeliverToOwners(bodies().id, communicator_, &cache_);
   if (alert_ < 0.0) ChooseAlertDistance();
   const double half = (1.0 - stepping_.theta) * dt;
   if (description_.period > 0.0 && step_ == 0) grid_.SetPeriod(description_.period_origin, description_.period);
@@ -177,6 +178,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   PlaceCuts(detection_, &reach.largest_radius, &newcomers);
   if (newcomers) distribution_.CheckIdsAreUnique();
   distribution_.Move(detection_, grid_, blocks_, reach, &cache_);
+  is_cache_scattered_ = false;
   if (communicator_->size() > 1) drift_all();
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   RunTogether(communicator_, [&] {
@@ -495,41 +497,18 @@ void TimeStepper::Impl::CountCommunication(const CommunicationCounters& before) 
 }
 
 std::vector<std::byte> TimeStepper::Impl::SaveState() const {
-  std::vector<std::byte> bytes;
-  ByteWriter out(&bytes);
-  out.Put(kStateMark);
-  out.Put(partition_.nx);
-  out.Put(partition_.ny);
-  out.Put(step_);
-  out.Put(time_);
-  out.Put(alert_);
-  out.Put(grid_);
-  out.Put(cache_.dt);
-  out.PutSpan(std::span<const CachedImpulse>(cache_.contacts));
-  out.PutSpan(std::span<const CachedInterfaceImpulse>(cache_.interfaces));
-  return bytes;
+  return WriteState({step_, time_, alert_, cache_.dt, grid_}, cache_, partition_.nx, partition_.ny, *communicator_);
 }
 
-void TimeStepper::Impl::LoadState(std::span<const std::byte> bytes) {
-  ByteReader in(bytes);
-  Require(bytes.size() >= sizeof kStateMark && in.Get<std::uint64_t>() == kStateMark, "these bytes are no saved state of a time stepper");
-  const auto nx = in.Get<int>(), ny = in.Get<int>();
-  Require(nx == partition_.nx && ny == partition_.ny,
-          fmt::format("the saved state is one of {}x{} subdomains, this solver has {}x{}; continue with the same partition", nx, ny,
-                      partition_.nx, partition_.ny));
-  const auto step = in.Get<std::int64_t>();
-  const auto time = in.Get<double>(), alert = in.Get<double>();
-  const auto grid = in.Get<Grid>();
+void TimeStepper::Impl::LoadState(std::span<const std::span<const std::byte>> parts) {
   ImpulseCache cache;
-  cache.dt = in.Get<double>();
-  cache.contacts = in.GetVector<CachedImpulse>();
-  cache.interfaces = in.GetVector<CachedInterfaceImpulse>();
-  Require(in.empty(), "the saved state is longer than it says it is");
-  step_ = step;
-  time_ = time;
-  alert_ = alert;
-  grid_ = grid;
+  const StepperState state = ReadStates(parts, partition_.nx, partition_.ny, communicator_, &cache);
+  step_ = state.step;
+  time_ = state.time;
+  alert_ = state.alert;
+  grid_ = state.grid;
   cache_ = std::move(cache);
+  is_cache_scattered_ = true;
 }
 
 TimeStepper::TimeStepper(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter,
@@ -540,7 +519,8 @@ TimeStepper::TimeStepper(TimeStepper&&) noexcept = default;
 
 const StepReport& TimeStepper::Step(double dt) { return impl_->Step(dt); }
 std::vector<std::byte> TimeStepper::SaveState() const { return impl_->SaveState(); }
-void TimeStepper::LoadState(std::span<const std::byte> bytes) { impl_->LoadState(bytes); }
+void TimeStepper::LoadState(std::span<const std::byte> bytes) { impl_->LoadState({&bytes, 1}); }
+void TimeStepper::LoadState(std::span<const std::span<const std::byte>> parts) { impl_->LoadState(parts); }
 std::span<const BodyRecord> TimeStepper::bodies() const { return impl_->body_records_; }
 std::span<const ContactRecord> TimeStepper::contacts() const { return impl_->contact_records_; }
 

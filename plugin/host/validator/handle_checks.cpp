@@ -1,6 +1,8 @@
 #include <malloc.h>
 
 #include <cmath>
+#include <functional>
+#include <span>
 
 #include "nscdd/host/solver.h"
 #include "validator/check_list.h"
@@ -84,21 +86,33 @@ void TwoHandles(const std::string& path) {
   });
 }
 
+/// `load` gives the bytes to the new handle by the function `function`.
+void CheckContinuation(const std::shared_ptr<const PluginLibrary>& library, const std::string& name, const char* function,
+                       const std::function<void(const std::vector<std::byte>&, Solver*)>& load) {
+  TwoDiskHost host;
+  Solver solver = MakeSolver(library, name, &host);
+  for (int i = 0; i < kSteps; ++i) solver.Step(kTimeStep);
+  TwoDiskHost copy = host;
+  Solver resumed = MakeSolver(library, name, &copy);
+  load(solver.SaveState(), &resumed);
+  solver.Step(kTimeStep);
+  resumed.Step(kTimeStep);
+  Expect(host.pose() == copy.pose() && host.velocity() == copy.velocity(),
+         fmt::format("a handle that loaded another's state by {} goes on differently; save everything that a step uses",
+                     function));
+  Expect(resumed.Report().step == kSteps + 1 && std::abs(resumed.Report().time - solver.Report().time) < 1e-12,
+         fmt::format("after {} the report counts step {}, not {}", function, resumed.Report().step, kSteps + 1));
+}
+
 void StateRoundTrip(const std::string& path) {
   const auto library = PluginLibrary::Load(path);
   ForEachSolver(*library, [&](const std::string& name) {
-    TwoDiskHost host;
-    Solver solver = MakeSolver(library, name, &host);
-    for (int i = 0; i < kSteps; ++i) solver.Step(kTimeStep);
-    TwoDiskHost copy = host;
-    Solver resumed = MakeSolver(library, name, &copy);
-    resumed.LoadState(solver.SaveState());
-    solver.Step(kTimeStep);
-    resumed.Step(kTimeStep);
-    Expect(host.pose() == copy.pose() && host.velocity() == copy.velocity(),
-           "a handle that loaded another's state goes on differently; save everything that a step uses");
-    Expect(resumed.Report().step == kSteps + 1 && std::abs(resumed.Report().time - solver.Report().time) < 1e-12,
-           fmt::format("after load_state the report counts step {}, not {}", resumed.Report().step, kSteps + 1));
+    CheckContinuation(library, name, "load_state", [](const auto& bytes, Solver* solver) { solver->LoadState(bytes); });
+    if (library->plugin().header.abi_minor < 1) return;
+    CheckContinuation(library, name, "load_states", [](const auto& bytes, Solver* solver) {
+      const std::span<const std::byte> part(bytes);
+      solver->LoadStates({&part, 1});
+    });
   });
 }
 

@@ -243,6 +243,13 @@ void WrongStates(const std::string& path) {
     handle.ExpectRefused(p.save_state(handle.get(), small.data(), size - 1), "a state saved into too few bytes");
     Expect(p.save_state(handle.get(), small.data(), size) == NSCDD_OK, "save_state failed");
     handle.ExpectRefused(p.load_state(handle.get(), small.data(), size - 1), "a truncated state");
+    if (p.header.abi_minor >= 1) {
+      const std::array<const void*, 2> twice{small.data(), small.data()};
+      const std::array<std::uint64_t, 2> sizes{size, size};
+      handle.ExpectRefused(p.load_states(handle.get(), 2, twice.data(), sizes.data()), "the same part of a state twice");
+      handle.ExpectRefused(p.load_states(handle.get(), 0, nullptr, nullptr), "a state of no parts");
+      handle.ExpectRefused(p.load_states(handle.get(), 1, nullptr, nullptr), "null parts of a state");
+    }
     const RawHandle without_host(*library, name, nullptr);
     without_host.ExpectRefused(p.step(without_host.get(), kTimeStep), "a step of a handle without a host");
   });

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "layout.h"
+
 namespace nscdd {
 namespace {
 
@@ -97,8 +99,7 @@ void TwoDiskHost::FailIn(std::string function, std::string sentence) {
 double TwoDiskHost::gap() const { return std::hypot(pose_[3] - pose_[0], pose_[4] - pose_[1]) - 2.0 * kRadius; }
 
 const nscdd_host* TwoDiskHost::table() {
-  table_ = {};
-  table_.header = {sizeof(nscdd_host), NSCDD_ABI_MAJOR, NSCDD_ABI_MINOR};
+  table_ = WithHeader<nscdd_host>();
   table_.user = this;
   table_.describe = Functions::Describe;
   table_.read_bodies = Functions::ReadBodies;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kAuto = "auto";
 
+AutoSettings WishOf(const Scene& scene) { return scene.solver.wish.value_or(AutoSettings{1e-3, true, {}}); }
+
 /// What a request or a scene says of the grid; "" if nothing.
 std::string WantedGrid(const Scene& scene, const SolverRequest& request) {
   std::string grid;
@@ -69,22 +71,31 @@ void RemoveGhosts(const Solver& solver, PlatformAdapter* adapter) {
 
 }  // namespace
 
-Pilot::Pilot(Ladder ladder, std::vector<SolverChoice> choices, const AutoSettings& wish, const SolverRegistry& registry)
-    : ladder_(std::move(ladder)), choices_(std::move(choices)), watcher_(wish), registry_(registry) {}
+Pilot::Pilot(PilotState state, const Scene& scene, const SolverRegistry& registry)
+    : state_(std::move(state)), watcher_(WishOf(scene), state_.watcher), registry_(registry) {}
+
+std::unique_ptr<Pilot> Pilot::Restore(const std::string& saved, const Scene& scene, const SolverRegistry& registry) {
+  return std::unique_ptr<Pilot>(new Pilot(ParsePilotState(saved), scene, registry));
+}
+
+std::string Pilot::Save() const {
+  PilotState state = state_;
+  state.watcher = watcher_.state();
+  return FormatPilotState(state);
+}
 
 std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry,
                                    int ranks) {
   if ((request.solver.empty() ? scene.solver.name : request.solver) != kAuto) return nullptr;
-  const AutoSettings wish = scene.solver.wish.value_or(AutoSettings{1e-3, true, {}});
   const std::filesystem::path file = FrontFileOf(scene.file);
   const bool measured = std::filesystem::exists(file);
-  Ladder ladder = MakeLadder(wish, WantedGrid(scene, request), ranks, measured ? ReadFront(file) : std::vector<FrontEntry>{},
+  Ladder ladder = MakeLadder(WishOf(scene), WantedGrid(scene, request), ranks, measured ? ReadFront(file) : std::vector<FrontEntry>{},
                              file.string(), registry);
-  if (ladder.rungs.empty())
-    throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
-  std::vector<SolverChoice> choices;
-  for (const Setting& rung : ladder.rungs) choices.push_back(ChoiceOf(rung, scene, request, registry));
-  return std::unique_ptr<Pilot>(new Pilot(std::move(ladder), std::move(choices), wish, registry));
+  if (ladder.rungs.empty()) throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
+  PilotState state;
+  for (const Setting& rung : ladder.rungs) state.choices.push_back(ChoiceOf(rung, scene, request, registry));
+  state.ladder = std::move(ladder);
+  return std::unique_ptr<Pilot>(new Pilot(std::move(state), scene, registry));
 }
 
 void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
@@ -97,11 +108,12 @@ void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const R
   }
   const double growth = watcher_.IsTooDeep(report) ? Largest(ranks, SolverGrowth(*solver, dt), 1e-12) : 0.0;
   const double seconds = Largest(ranks, report.seconds_total, 1e-9);
-  const bool fixed = ladder_.rungs[rung_].Option("tolerance") == "0";
-  const auto verdict =
-      watcher_.Judge(report, fixed, growth, seconds, goes_on && rung_ + 1 < choices_.size(), goes_on && rung_ > 0);
+  const bool fixed = rung().Option("tolerance") == "0";
+  const auto verdict = watcher_.Judge(report, fixed, growth, seconds, goes_on && state_.rung + 1 < state_.choices.size(),
+                                      goes_on && state_.rung > 0);
   if (verdict == Watcher::Verdict::kStay) return;
-  rung_ += verdict == Watcher::Verdict::kClimb ? 1 : std::size_t(-1);
+  state_.rung += verdict == Watcher::Verdict::kClimb ? 1 : std::size_t(-1);
+  changed_after_ = report.step;
   const std::vector<std::byte> state = solver->SaveState();
   ranks.RunTogether([&] {
     if (ranks.size() > 1) RemoveGhosts(*solver, adapter);

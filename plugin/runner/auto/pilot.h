@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "auto/ladder.h"
-#include "auto/watcher.h"
+#include "auto/pilot_state.h"
 #include "mpi_session.h"
 #include "nscdd/host/adapter_host.h"
 #include "solver_settings.h"
@@ -20,25 +19,31 @@ class Pilot {
   static std::unique_ptr<Pilot> Make(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry,
                                      int ranks);
 
+  /// Goes on with what Save() of an earlier run of the scene said.
+  static std::unique_ptr<Pilot> Restore(const std::string& saved, const Scene& scene, const SolverRegistry& registry);
+  std::string Save() const;
+
   /// Of the rung in use.
-  const SolverChoice& choice() const { return choices_[rung_]; }
-  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be
-  /// and another step follows (`goes_on`). Collective.
+  const SolverChoice& choice() const { return state_.choices[state_.rung]; }
+  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be and another
+  /// step follows (`goes_on`). Collective.
   void AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
                  const AdapterHost& host, PlatformAdapter* adapter, Solver* solver);
 
-  std::int64_t escalations() const { return watcher_.escalations(); }
-  std::int64_t descents() const { return watcher_.descents(); }
-  std::string Summary() const { return watcher_.Summary(ladder_.origin, ladder_.rungs[rung_].name); }
+  /// The last step after which the solver was exchanged, so that the new one has no tables yet and no host has ghosts; -1: none.
+  std::int64_t changed_after() const { return changed_after_; }
+  std::int64_t escalations() const { return watcher_.state().escalations; }
+  std::int64_t descents() const { return watcher_.state().descents; }
+  std::string Summary() const { return watcher_.Summary(state_.ladder.origin, rung().name); }
 
  private:
-  Pilot(Ladder ladder, std::vector<SolverChoice> choices, const AutoSettings& wish, const SolverRegistry& registry);
+  Pilot(PilotState state, const Scene& scene, const SolverRegistry& registry);
+  const Setting& rung() const { return state_.ladder.rungs[state_.rung]; }
 
-  Ladder ladder_;
-  std::vector<SolverChoice> choices_;  // a rung each, with what scene and command line ask for
+  PilotState state_;  // but for the watcher's
   Watcher watcher_;
-  const SolverRegistry& registry_;
-  std::size_t rung_ = 0;
+  SolverRegistry registry_;
+  std::int64_t changed_after_ = -1;
 };
 
 }  // namespace nscdd

@@ -8,13 +8,25 @@
 
 namespace nscdd {
 
-/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget
-/// looks at a clock.
+/// What a Watcher remembers.
+struct WatcherState {
+  double depth = 0.0;  ///< [m] interpenetration at the end of the step before
+  std::int64_t steps = 0, escalations = 0, descents = 0;
+  std::int64_t missed = 0;       ///< steps deeper than wished by the solver's doing
+  std::int64_t by_geometry = 0;  ///< by the time step's: gaps are not linear in it
+  std::int64_t not_converged = 0;
+  std::int64_t over_budget = 0;
+  std::int64_t since_change = 0;
+  double quick = 0.0;            ///< [s] largest step since the last change of rung
+};
+
+/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget looks
+/// at a clock.
 class Watcher {
  public:
   enum class Verdict { kStay, kClimb, kDescend };
 
-  explicit Watcher(const AutoSettings& wish) : wish_(wish) {}
+  explicit Watcher(const AutoSettings& wish, const WatcherState& state = {}) : wish_(wish), state_(state) {}
 
   /// Whether Judge() needs the deepening: the interpenetration is above the wish and has grown in the step.
   bool IsTooDeep(const StepReport& report) const;
@@ -22,10 +34,9 @@ class Watcher {
   /// `seconds`: of the step, the slowest rank. `above`, `below`: whether there is a rung.
   Verdict Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above, bool below);
   /// [m] interpenetration before the first step; deeper overlaps of the start are nobody's fault.
-  void SetStart(double depth) { depth_ = depth; }
+  void SetStart(double depth) { state_.depth = depth; }
 
-  std::int64_t escalations() const { return escalations_; }
-  std::int64_t descents() const { return descents_; }
+  const WatcherState& state() const { return state_; }
 
   /// One line for the end of the run: escalations, steps that missed the target, and why.
   std::string Summary(const std::string& origin, const std::string& last_rung) const;
@@ -35,14 +46,7 @@ class Watcher {
   Verdict JudgeBudget(double seconds, bool above, bool below);
 
   AutoSettings wish_;
-  double depth_ = 0.0;  // [m] at the end of the step before
-  std::int64_t steps_ = 0, escalations_ = 0, descents_ = 0;
-  std::int64_t missed_ = 0;       // steps deeper than wished by the solver's doing
-  std::int64_t by_geometry_ = 0;  // by the time step's: gaps are not linear in it
-  std::int64_t not_converged_ = 0;
-  std::int64_t over_budget_ = 0;
-  std::int64_t since_change_ = 0;
-  double quick_ = 0.0;  // [s] largest step since the last change of rung
+  WatcherState state_;
 };
 
 }  // namespace nscdd

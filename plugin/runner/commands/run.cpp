@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "auto/pilot.h"
+#include "checkpoint/resume_point.h"
+#include "commands/run_checkpoints.h"
+#include "commands/run_plan.h"
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
 #include "results/final_csv.h"
@@ -18,10 +20,11 @@
 #include "run_results.h"
 #include "scene/packing.h"
 #include "scene/platform.h"
-#include "scene/read_scene.h"
 
 namespace nscdd {
 namespace {
+
+constexpr int kInterruptedCode = 4;
 
 /// A run in the making; members in the order in which they come to be.
 class SceneRun {
@@ -30,120 +33,158 @@ class SceneRun {
       : request_(request), ranks_(session.ranks()), session_(session), start_(std::chrono::steady_clock::now()) {}
 
   int Execute() {
-    ranks_.RunTogether([&] { Prepare(); });
-    ranks_.RunOnRoot([&] { CheckIds(scene_); });
-    ranks_.RunTogether([&] { AddBodies(); });
+    if (!request_.resume.empty()) {
+      OpenUnfinished();
+    } else {
+      ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
+    }
+    ranks_.RunOnRoot([&] { CheckIds(plan_.scene); });
+    ranks_.RunTogether([&] {
+      platform_ = MakePlatform(plan_.record.adapter, plan_.scene);
+      AddBodies();
+    });
     host_ = std::make_unique<AdapterHost>(&platform_->adapter());
     solver_ = std::make_unique<Solver>(
-        registry_.Create({choice_.name, choice_.options, host_->table(), session_.solver_communicator()}));
+        plan_.registry.Create({plan_.choice.name, plan_.choice.options, host_->table(), session_.solver_communicator()}));
     OpenResults();
-    const bool stopped = Steps();
+    if (plan_.record.checkpoint_every > 0) BeginCheckpoints();
+    const Ending ending = StepsOrHint();
+    if (ending == Ending::kInterrupted) return SayHowToResume();
     CloseResults();
-    PrintSummary(stopped);
-    return stopped ? 3 : 0;
+    PrintSummary(ending == Ending::kNotConverged);
+    return ending == Ending::kNotConverged ? 3 : 0;
   }
 
  private:
-  void Prepare();
+  enum class Ending { kFinished, kNotConverged, kInterrupted };
+
+  void OpenUnfinished();
   void AddBodies();
   void OpenResults();
-  bool Steps();
+  void BeginCheckpoints();
+  Ending StepsOrHint();
+  Ending Steps();
   void Save(const StepRow& row);
   void NoteDeepOverlaps(double mean_radius);
   void CloseResults();
   void PrintSummary(bool stopped);
-  RunIdentity Identity() const;
+  int SayHowToResume();
+  std::int64_t done() const { return resume_ ? resume_->head().step : 0; }
 
   const RunRequest& request_;
   const RankGroup& ranks_;
   const MpiSession& session_;
   std::chrono::steady_clock::time_point start_;
-  Scene scene_;
-  SolverRegistry registry_;
-  SolverChoice choice_;
-  std::string adapter_;
-  std::int64_t steps_ = 0;
-  std::int64_t subdomains_x_ = 1, subdomains_y_ = 1;
+  RunPlan plan_;
+  std::unique_ptr<ResultsFolder> folder_;
+  std::unique_ptr<ResumePoint> resume_;  // null unless an unfinished run goes on
   std::unique_ptr<Platform> platform_;
+  std::int64_t bodies_ = 0;  // of this rank's platform
   ShapeTable shapes_;
   std::unique_ptr<AdapterHost> host_;
   std::unique_ptr<Solver> solver_;
-  std::unique_ptr<Pilot> pilot_;  // null unless the solver is "auto"
-  std::unique_ptr<ResultsFolder> folder_;
   std::unique_ptr<StepsCsv> csv_;
   std::unique_ptr<ResultsFile> file_;
+  std::unique_ptr<RunCheckpoints> checkpoints_;  // null if there are none
   RunSummary summary_;
+  double seconds_before_ = 0.0;  // [s] that the steps before --resume took
   std::string overlap_note_;
 };
 
-void SceneRun::Prepare() {
-  scene_ = ReadSceneFile(request_.scene);
-  registry_.Add(FindPlugin(request_.solver.plugin));
-  pilot_ = Pilot::Make(scene_, request_.solver, registry_, ranks_.size());
-  choice_ = pilot_ ? pilot_->choice() : ChooseSolver(scene_, request_.solver, registry_);
-  adapter_ = request_.adapter.empty() ? scene_.adapter : request_.adapter;
-  steps_ = request_.steps.value_or(scene_.time.steps);
-  const std::string grid = OptionValue(choice_, registry_, "subdomains");
-  if (!grid.empty()) {
-    const auto cross = grid.find('x');
-    subdomains_x_ = std::stoll(grid.substr(0, cross));
-    subdomains_y_ = std::stoll(grid.substr(cross + 1));
+void SceneRun::OpenUnfinished() {
+  ranks_.RunTogether([&] { RefuseConflicts(request_); });
+  folder_ = std::make_unique<ResultsFolder>(request_.resume, ranks_);
+  resume_ = std::make_unique<ResumePoint>(request_.resume, ranks_);
+  for (const std::string& warning : resume_->warnings()) {
+    fmt::print(stderr, "nscdd: WARNING: {} Going on from the checkpoint after step {} instead.\n", warning, done());
   }
-  platform_ = MakePlatform(adapter_, scene_);
+  ranks_.RunTogether([&] { plan_ = PlanResumedRun(request_, resume_->head()); });
+  ranks_.RunOnRoot([&] { CheckInputs(plan_.record.inputs); });
 }
 
 void SceneRun::AddBodies() {
-  ForEachBody(scene_, ranks_.rank(), ranks_.size(), [&](const BodyDefinition& body) {
+  ForEachBody(plan_.scene, ranks_.rank(), ranks_.size(), [&](const BodyDefinition& body) {
     platform_->Add(body);
     AddShapes(body, &shapes_);
+    ++bodies_;
   });
 }
 
-RunIdentity SceneRun::Identity() const {
-  RunIdentity identity{scene_.name, scene_.file.string(), HashOfFile(scene_.file), NSCDD_VERSION, {}};
-  identity.settings = {{"adapter", adapter_}, {"ranks", std::to_string(ranks_.size())}, {"steps", std::to_string(steps_)},
-                       {"solver", choice_.name}};
-  identity.settings.insert(identity.settings.end(), choice_.options.begin(), choice_.options.end());
-  return identity;
-}
-
 void SceneRun::OpenResults() {
-  std::filesystem::path out = request_.out;
-  if (out.empty()) out = scene_.output.dir;
-  if (out.empty()) out = std::filesystem::path("results") / scene_.name;
-  folder_ = std::make_unique<ResultsFolder>(out, Identity(), ranks_);
-  csv_ = std::make_unique<StepsCsv>(folder_.get());
   RunDescription run;
-  run.scene = scene_.name;
-  run.solver = choice_.name;
+  run.scene = plan_.scene.name;
+  run.solver = plan_.choice.name;
   run.version = NSCDD_VERSION;
-  run.subdomains_x = subdomains_x_;
-  run.subdomains_y = subdomains_y_;
-  if (scene_.periodic) {
-    run.period = scene_.periodic->length;
-    run.period_origin = scene_.periodic->origin;
+  run.subdomains_x = plan_.subdomains_x;
+  run.subdomains_y = plan_.subdomains_y;
+  if (plan_.scene.periodic) {
+    run.period = plan_.scene.periodic->length;
+    run.period_origin = plan_.scene.periodic->origin;
   }
-  file_ = std::make_unique<ResultsFile>(folder_.get(), run, shapes_);
-  summary_.scene = scene_.name;
-  summary_.adapter = adapter_;
-  summary_.solver = pilot_ ? "auto" : choice_.name;
-  summary_.criterion =
-      fmt::format("{} <= {}", OptionValue(choice_, registry_, "criterion"), OptionValue(choice_, registry_, "tolerance"));
-  if (pilot_) summary_.criterion = "of the rung in use";
-  summary_.output = out.string();
+  if (resume_) {
+    folder_->Identify(IdentityOf(plan_, ranks_.size()));
+    ranks_.RunOnRoot(
+        [&] { ForEachStepRow(folder_->path(), resume_->head().tables, [&](const StepRow& row) { summary_.Add(row); }); });
+    seconds_before_ = summary_.seconds_steps;
+    csv_ = std::make_unique<StepsCsv>(folder_.get(), resume_->head().tables);
+    file_ = std::make_unique<ResultsFile>(folder_.get(), run, resume_->head().segments);
+  } else {
+    std::filesystem::path out = request_.out;
+    if (out.empty()) out = plan_.scene.output.dir;
+    if (out.empty()) out = std::filesystem::path("results") / plan_.scene.name;
+    folder_ = std::make_unique<ResultsFolder>(out, IdentityOf(plan_, ranks_.size()), ranks_);
+    csv_ = std::make_unique<StepsCsv>(folder_.get());
+    file_ = std::make_unique<ResultsFile>(
+        folder_.get(), run, shapes_,
+        plan_.record.checkpoint_every > 0 ? ResultsFile::Mode::kSegments : ResultsFile::Mode::kWhole);
+  }
+  summary_.scene = plan_.scene.name;
+  summary_.adapter = plan_.record.adapter;
+  summary_.solver = plan_.pilot ? "auto" : plan_.choice.name;
+  summary_.criterion = fmt::format("{} <= {}", OptionValue(plan_.choice, plan_.registry, "criterion"),
+                                   OptionValue(plan_.choice, plan_.registry, "tolerance"));
+  if (plan_.pilot) summary_.criterion = "of the rung in use";
+  summary_.output = folder_->path().string();
   summary_.ranks = ranks_.size();
-  summary_.subdomains_x = subdomains_x_;
-  summary_.subdomains_y = subdomains_y_;
-  summary_.steps_asked = steps_;
+  summary_.subdomains_x = plan_.subdomains_x;
+  summary_.subdomains_y = plan_.subdomains_y;
+  summary_.steps_asked = plan_.record.steps;
 }
 
-/// True when a step that did not converge ended the run.
-bool SceneRun::Steps() {
-  ProgressBar bar(stdout, ranks_.is_root() ? ProgressBar::StyleFor(stdout, request_.quiet) : ProgressBar::Style::kNone, steps_);
-  const std::int64_t every = request_.save_every.value_or(scene_.output.save_every.value_or(0));
-  for (std::int64_t step = 1; step <= steps_; ++step) {
-    platform_->SetGravity(GravityAt(scene_.gravity, step, scene_.time.dt));
-    solver_->Step(scene_.time.dt);
+/// Checkpoint 0, or the state of the one that the run goes on from.
+void SceneRun::BeginCheckpoints() {
+  checkpoints_ =
+      std::make_unique<RunCheckpoints>(plan_, folder_.get(), csv_.get(), file_.get(), platform_.get(), solver_.get());
+  if (!resume_) {
+    ranks_.RunOnRoot([&] { plan_.record.inputs = InputsOf(plan_.scene); });
+    checkpoints_->Write(0);
+    return;
+  }
+  Restore(resume_->checkpoint(), bodies_, ranks_, platform_.get(), solver_.get());
+  checkpoints_->set_last_step(done());
+  if (ranks_.is_root() && !request_.quiet) fmt::print("going on after step {} of {}\n", done(), plan_.record.steps);
+}
+
+/// An error on the way does not end the run for good.
+SceneRun::Ending SceneRun::StepsOrHint() {
+  try {
+    return Steps();
+  } catch (const Error& e) {
+    if (!checkpoints_ || summary_.steps == 0) throw;
+    throw Error(fmt::format("{} (Once that is mended, '{}' goes on after step {}.)", e.what(), checkpoints_->command(),
+                            checkpoints_->last_step()));
+  }
+}
+
+SceneRun::Ending SceneRun::Steps() {
+  const std::int64_t last = plan_.record.steps, every = plan_.record.save_every;
+  const double dt = plan_.scene.time.dt;
+  ProgressBar bar(stdout, ranks_.is_root() ? ProgressBar::StyleFor(stdout, request_.quiet) : ProgressBar::Style::kNone, last,
+                  {}, done());
+  for (std::int64_t step = done() + 1; step <= last; ++step) {
+    if (checkpoints_ && checkpoints_->IsToldToEnd(step - 1)) return Ending::kInterrupted;
+    platform_->SetGravity(GravityAt(plan_.scene.gravity, step, dt));
+    solver_->Step(dt);
     const StepReport report = solver_->Report();
     const StepRow row = MakeStepRow(report);
     folder_->KeepParts();
@@ -151,21 +192,22 @@ bool SceneRun::Steps() {
     summary_.Add(row);
     bar.Update(row);
     const bool good = report.solve.status == SolveStatus::kConverged || report.solve.status == SolveStatus::kIncomplete;
-    const bool stop = !good && scene_.solver.on_nonconvergence == OnNonconvergence::kStop;
-    if (step == 1) {
+    const bool stop = !good && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
+    if (step == done() + 1) {
       summary_.unknowns_per_contact = report.solve.unknowns_per_contact;
       summary_.unknowns_per_body = report.solve.unknowns_per_body;
       summary_.bytes_per_contact = report.solve.bytes_per_contact;
       summary_.bytes_per_body = report.solve.bytes_per_body;
-      NoteDeepOverlaps(report.mean_radius);
     }
-    if (step == 1 || step == steps_ || stop || (every > 0 && step % every == 0)) Save(row);
-    if (stop) return true;
-    if (pilot_) {
-      pilot_->AfterStep(report, scene_.time.dt, step < steps_, ranks_, session_, *host_, &platform_->adapter(), solver_.get());
+    if (step == 1) NoteDeepOverlaps(report.mean_radius);
+    if (step == 1 || step == last || stop || (every > 0 && step % every == 0)) Save(row);
+    if (stop) return Ending::kNotConverged;
+    if (plan_.pilot) {
+      plan_.pilot->AfterStep(report, dt, step < last, ranks_, session_, *host_, &platform_->adapter(), solver_.get());
     }
+    if (checkpoints_) checkpoints_->WriteIfDue(step);
   }
-  return false;
+  return Ending::kFinished;
 }
 
 void SceneRun::Save(const StepRow& row) {
@@ -187,28 +229,37 @@ void SceneRun::CloseResults() {
   file_->Close();
   csv_->Close();
   WriteFinalCsv(folder_.get(), MakeGrainTable(*solver_));
-  if (!scene_.output.packing.empty()) {
-    ranks_.RunOnRoot([&] { WritePacking(scene_, folder_->Stage("final.csv"), folder_->Stage(scene_.output.packing)); });
+  if (!plan_.scene.output.packing.empty()) {
+    ranks_.RunOnRoot(
+        [&] { WritePacking(plan_.scene, folder_->Stage("final.csv"), folder_->Stage(plan_.scene.output.packing)); });
   }
-  if (pilot_) {
-    folder_->Count("escalations", pilot_->escalations());
-    folder_->Count("descents", pilot_->descents());
+  if (plan_.pilot) {
+    folder_->Count("escalations", plan_.pilot->escalations());
+    folder_->Count("descents", plan_.pilot->descents());
   }
   folder_->Finish();
 }
 
 void SceneRun::PrintSummary(bool stopped) {
   if (!ranks_.is_root()) return;
-  summary_.seconds_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  summary_.seconds_wall = seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (!request_.quiet) {
     fmt::print("{}", FormatSummary(summary_));
     if (!overlap_note_.empty()) fmt::print("{}\n", overlap_note_);
-    if (pilot_) fmt::print("{}\n", pilot_->Summary());
+    if (plan_.pilot) fmt::print("{}\n", plan_.pilot->Summary());
   }
   if (stopped) {
     fmt::print(stderr, "nscdd: stopped at step {}, which did not converge (solver.on_nonconvergence = \"stop\"): {}\n",
                summary_.last.step, summary_.last.reason);
   }
+}
+
+int SceneRun::SayHowToResume() {
+  if (ranks_.is_root()) {
+    fmt::print(stderr, "nscdd: told to end by a signal; {} of {} steps are done and kept: '{}' goes on from there\n",
+               checkpoints_->last_step(), plan_.record.steps, checkpoints_->command());
+  }
+  return kInterruptedCode;
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 #include <cstdio>
 #include <fstream>
 
+#include "checkpoint/stop_signal.h"
 #include "nscdd/error.h"
 #include "results/progress_bar.h"
 #include "results/staged_file.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
-#include "tradeoff/interrupt.h"
 #include "tradeoff/measurement.h"
 #include "tradeoff/step_problem.h"
 #include "tradeoff/tradeoff_csv.h"
@@ -48,10 +48,10 @@ class TradeoffCommand {
     Prepare();
     MakeSettings();
     OpenFolder();
-    const Interrupt interrupt;
+    const StopSignal interrupt;
     Record(interrupt);
-    if (!interrupt.raised()) Measure(interrupt);
-    Conclude(interrupt.raised());
+    if (interrupt.received() == 0) Measure(interrupt);
+    Conclude(interrupt.received() != 0);
   }
 
  private:
@@ -59,8 +59,8 @@ class TradeoffCommand {
   void ReadStepping();
   void MakeSettings();
   void OpenFolder();
-  void Record(const Interrupt& interrupt);
-  void Measure(const Interrupt& interrupt);
+  void Record(const StopSignal& interrupt);
+  void Measure(const StopSignal& interrupt);
   void Conclude(bool interrupted);
   void WriteFile(const std::string& name, const std::string& text) const;
   void StoreFront() const;
@@ -156,7 +156,7 @@ void TradeoffCommand::OpenFolder() {
   if (error) throw Error(CannotWrite(folder_, error.value()));
 }
 
-void TradeoffCommand::Record(const Interrupt& interrupt) {
+void TradeoffCommand::Record(const StopSignal& interrupt) {
   const Setting setting = ReferenceSetting(registry_, contacts_);
   Say(fmt::format("{}: {} steps of {} s on {}; reference by {}, {} settings", scene_.name, plan_.steps, scene_.time.dt,
                   plan_.adapter, setting.name, settings_.size()));
@@ -164,23 +164,22 @@ void TradeoffCommand::Record(const Interrupt& interrupt) {
   const auto start = std::chrono::steady_clock::now();
   const auto stop = [&] {
     const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return interrupt.raised() || used > kReferenceShare * extent_.seconds;
+    return interrupt.received() != 0 || used > kReferenceShare * extent_.seconds;
   };
   reference_ = RecordReference(plan_, setting, stop,
                                [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
   bar.Finish();
   const auto done = static_cast<std::int64_t>(reference_.nat.size());
-  Say(fmt::format(
-      "reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
-      done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
-      reference_.steps.size()));
-  if (done < plan_.steps && !interrupt.raised()) {
-    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps",
-                    done, plan_.steps));
+  Say(fmt::format("reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
+                  done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
+                  reference_.steps.size()));
+  if (done < plan_.steps && interrupt.received() == 0) {
+    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps", done,
+                    plan_.steps));
   }
 }
 
-void TradeoffCommand::Measure(const Interrupt& interrupt) {
+void TradeoffCommand::Measure(const StopSignal& interrupt) {
   std::vector<std::unique_ptr<View>> views;
   views.push_back(std::make_unique<ProblemsView>(plan_, reference_));
   views.push_back(std::make_unique<RunsView>(plan_, reference_));
@@ -190,7 +189,7 @@ void TradeoffCommand::Measure(const Interrupt& interrupt) {
   events.measured = [&](const TradeoffRow& row) { csv.Append(row); };
   events.timed = [&](const std::vector<TradeoffRow>& rows) { csv.Rewrite(rows); };
   events.tick = [&](const std::string& note, bool failed) { bar->Update(note, failed); };
-  events.interrupted = [&] { return interrupt.raised(); };
+  events.interrupted = [&] { return interrupt.received() != 0; };
   Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - reference_.seconds, events);
   bar = std::make_unique<ProgressBar>(stdout, BarStyle(), measurement.ticks());
   measurement.Run();

@@ -21,10 +21,11 @@ RowRange::RowRange(const RankGroup& ranks, std::size_t rows)
       count(rows),
       total(static_cast<hsize_t>(ranks.Sum(static_cast<std::int64_t>(rows)))) {}
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, bool parallel) : path_(path), parallel_(parallel) {}
+Hdf5File::Hdf5File(const std::filesystem::path& path, const RankGroup& ranks)
+    : path_(path), ranks_(ranks), parallel_(!ranks.is_serial()) {}
 
 Hdf5File Hdf5File::Create(const std::filesystem::path& path, const RankGroup& ranks) {
-  Hdf5File file(path, !ranks.is_serial());
+  Hdf5File file(path, ranks);
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file.Writing());
   if (file.parallel_) CheckHdf5(H5Pset_fapl_mpio(access.id(), ranks.communicator(), MPI_INFO_NULL), file.Writing());
   file.file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, file.Writing());
@@ -32,7 +33,7 @@ Hdf5File Hdf5File::Create(const std::filesystem::path& path, const RankGroup& ra
 }
 
 Hdf5File Hdf5File::Open(const std::filesystem::path& path) {
-  Hdf5File file(path, false);
+  Hdf5File file(path, RankGroup());
   file.file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "read " + path.string());
   return file;
 }
@@ -71,7 +72,12 @@ void Hdf5File::WriteColumn(const Hdf5Handle& group, const char* name, const char
   } else {
     CheckHdf5(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &rows.first, nullptr, &rows.count, nullptr), Writing());
   }
-  CheckHdf5(H5Dwrite(column.id(), type, memory.id(), space.id(), transfer.id(), data), Writing());
+  // A write may fail on one rank alone, and then none may go on to the next collective call.
+  ranks_.RunTogether([&] { CheckHdf5(H5Dwrite(column.id(), type, memory.id(), space.id(), transfer.id(), data), Writing()); });
+}
+
+void Hdf5File::Copy(const Hdf5File& from, const std::string& name) {
+  CheckHdf5(H5Ocopy(from.file_.id(), name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), Writing());
 }
 
 void Hdf5File::WriteText(const Hdf5Handle& group, const char* name, const std::string& text) {

@@ -51,6 +51,9 @@ class Hdf5File {
   /// Names of the groups and data sets in a group, ascending.
   std::vector<std::string> Names(const Hdf5Handle& group) const;
 
+  /// Copies a group with all that is in it from another file, under the same name.
+  void Copy(const Hdf5File& from, const std::string& name);
+
   template <class T>
   void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, const std::vector<T>& column,
                    const RowRange& rows) {
@@ -65,6 +68,7 @@ class Hdf5File {
 
   /// A text of fixed length as a data set of its own.
   void WriteText(const Hdf5Handle& group, const char* name, const std::string& text);
+  std::uint64_t RowsOf(const Hdf5Handle& group, const char* name) const { return RowsOf(OpenColumn(group, name)); }
 
   void WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text);
   void WriteAttribute(const Hdf5Handle& object, const char* name, double value);
@@ -78,7 +82,7 @@ class Hdf5File {
   void Close();
 
  private:
-  Hdf5File(const std::filesystem::path& path, bool parallel);
+  Hdf5File(const std::filesystem::path& path, const RankGroup& ranks);
 
   void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
                    const RowRange& rows);
@@ -91,6 +95,7 @@ class Hdf5File {
   std::string Reading(const std::string& name) const { return "read " + name + " in " + path_.string(); }
 
   std::filesystem::path path_;
+  RankGroup ranks_;
   bool parallel_;
   Hdf5Handle file_;
 };

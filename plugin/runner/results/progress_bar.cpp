@@ -35,13 +35,16 @@ ProgressBar::Style ProgressBar::StyleFor(std::FILE* stream, bool quiet) {
   return ::isatty(::fileno(stream)) != 0 ? Style::kBar : Style::kLines;
 }
 
-ProgressBar::ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock)
+ProgressBar::ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock, std::int64_t done)
     : stream_(stream),
       style_(style),
       steps_(std::max<std::int64_t>(1, steps)),
       clock_(clock ? std::move(clock) : Clock(SteadySeconds)),
       begin_(clock_()),
-      last_output_(begin_) {}
+      last_output_(begin_),
+      done_before_(done),
+      done_(done),
+      done_at_last_output_(done) {}
 
 ProgressBar::~ProgressBar() { Finish(); }
 
@@ -52,7 +55,7 @@ bool ProgressBar::IsDue(double now) const {
 }
 
 std::string ProgressBar::Line(const std::string& note, double now) const {
-  const double remaining = (now - begin_) / static_cast<double>(done_) * static_cast<double>(steps_ - done_);
+  const double remaining = (now - begin_) / static_cast<double>(done_ - done_before_) * static_cast<double>(steps_ - done_);
   std::string line = fmt::format("{:3} %  step {}/{}  {}", done_ * 100 / steps_, done_, steps_, note);
   if (not_converged_ > 0) line += fmt::format("  {} not converged", not_converged_);
   return line + (done_ < steps_ ? fmt::format("  {} left", FormatDuration(remaining))

@@ -22,8 +22,8 @@ class ProgressBar {
   /// kNone if `quiet`, else kBar if `stream` is a terminal.
   static Style StyleFor(std::FILE* stream, bool quiet);
 
-  /// `clock` is for tests; by default the steady clock.
-  ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock = {});
+  /// `clock` is for tests; by default the steady clock. `done` steps out of `steps` were taken before.
+  ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock = {}, std::int64_t done = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -45,8 +45,9 @@ class ProgressBar {
   Clock clock_;
   double begin_;
   double last_output_;
-  std::int64_t done_ = 0;
-  std::int64_t done_at_last_output_ = 0;
+  std::int64_t done_before_;
+  std::int64_t done_;
+  std::int64_t done_at_last_output_;
   std::int64_t not_converged_ = 0;
   bool line_open_ = false;
 };

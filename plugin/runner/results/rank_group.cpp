@@ -1,5 +1,7 @@
 #include "results/rank_group.h"
 
+#include <algorithm>
+#include <exception>
 #include <numeric>
 
 #include "nscdd/error.h"
@@ -56,6 +58,57 @@ std::int64_t RankGroup::SumOfLowerRanks(std::int64_t value) const {
   std::int64_t sum = 0;
   if (!is_serial()) MPI_Exscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, communicator_);
   return is_root() ? 0 : sum;  // MPI leaves rank 0's sum undefined
+}
+
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 24;  // [bytes]
+
+/// The pieces of `size` bytes, the last one maybe shorter, and one at least.
+template <class Function>
+void ForEachPiece(std::size_t size, Function&& f) {
+  std::size_t first = 0;
+  do {
+    const std::size_t count = std::min(kPiece, size - first);
+    f(first, count);
+    first += count;
+  } while (first < size);
+}
+
+}  // namespace
+
+void RankGroup::PassToRoot(std::span<const std::byte> bytes,
+                           const std::function<void(std::span<const std::byte>)>& take) const {
+  constexpr int kTag = 17;
+  if (!is_root()) {
+    const auto size = static_cast<std::uint64_t>(bytes.size());
+    MPI_Send(&size, 1, MPI_UINT64_T, 0, kTag, communicator_);
+    ForEachPiece(bytes.size(), [&](std::size_t first, std::size_t count) {
+      MPI_Send(bytes.data() + first, static_cast<int>(count), MPI_BYTE, 0, kTag, communicator_);
+    });
+  }
+  RunOnRoot([&] {
+    std::exception_ptr failure;  // the other ranks' bytes are received all the same
+    const auto try_to_take = [&](std::span<const std::byte> piece) {
+      try {
+        if (!failure) take(piece);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    };
+    try_to_take(bytes);
+    std::vector<std::byte> piece;
+    for (int sender = 1; sender < size_; ++sender) {
+      std::uint64_t size = 0;
+      MPI_Recv(&size, 1, MPI_UINT64_T, sender, kTag, communicator_, MPI_STATUS_IGNORE);
+      ForEachPiece(static_cast<std::size_t>(size), [&](std::size_t, std::size_t count) {
+        piece.resize(count);
+        MPI_Recv(piece.data(), static_cast<int>(count), MPI_BYTE, sender, kTag, communicator_, MPI_STATUS_IGNORE);
+        try_to_take(piece);
+      });
+    }
+    if (failure) std::rethrow_exception(failure);
+  });
 }
 
 std::vector<std::byte> RankGroup::GatherOnRoot(const std::vector<std::byte>& bytes) const {

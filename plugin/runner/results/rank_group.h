@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ class RankGroup {
   std::int64_t SumOfLowerRanks(std::int64_t value) const;
   /// All ranks' bytes one behind the other on rank 0, empty elsewhere. Less than 2 GiB in all.
   std::vector<std::byte> GatherOnRoot(const std::vector<std::byte>& bytes) const;
+  /// Calls `take` on rank 0 with each rank's bytes in order of rank, in pieces; holds one piece. Throws Error on all ranks if
+  /// `take` did.
+  void PassToRoot(std::span<const std::byte> bytes, const std::function<void(std::span<const std::byte>)>& take) const;
 
  private:
   void Agree(const std::string& sentence, bool failed) const;

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "nscdd/error.h"
+#include "results/run_files.h"
 #include "results/staged_file.h"
 
 namespace nscdd {
@@ -23,9 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMarker = "run.json";
 constexpr const char* kFormat = "nscdd run 1";
+constexpr const char* kFinished = "run.json.finished";  // the marker of a run that has ended, while its files get their names
 constexpr std::array kOwnNames = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf"};
-
-std::string PartOf(const std::string& name) { return name + ".part"; }
 
 std::string ReadAll(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -44,7 +44,7 @@ nlohmann::json ReadMarker(const fs::path& file) {
 /// Throws if somebody would lose something by our writing here.
 void RefuseForeignResults(const fs::path& folder, const std::string& scene) {
   bool has_marker = false;
-  for (const std::string& name : {std::string(kMarker), PartOf(kMarker)}) {
+  for (const std::string& name : {std::string(kMarker), PartOf(kMarker), std::string(kFinished)}) {
     const nlohmann::json marker = ReadMarker(folder / name);
     if (marker.is_null()) continue;
     has_marker = true;
@@ -78,6 +78,44 @@ nlohmann::ordered_json MarkerOf(const RunIdentity& identity) {
           {"settings", settings}};
 }
 
+void RefuseToLoseCheckpoints(const fs::path& folder) {
+  const std::vector<std::int64_t> steps = CheckpointSteps(folder);
+  if (steps.empty()) return;
+  throw Error(
+      fmt::format("the folder {0} holds an unfinished run with a checkpoint after step {1}: go on with it by 'nscdd run "
+                  "--resume {0}', choose another folder with --out, or remove {0}/{2} and those before it to begin anew.",
+                  folder.string(), steps.back(), CheckpointName(steps.back())));
+}
+
+[[noreturn]] void RefuseFinished(const fs::path& folder, const nlohmann::json& marker) {
+  const std::string steps = marker.value("/settings/steps"_json_pointer, std::string("all"));
+  throw Error(fmt::format("the run in {} has finished ({} steps): there is nothing to resume.", folder.string(), steps));
+}
+
+/// Gives the files of a run that has ended their names and removes what is not needed any more. If it is cut short, it can be
+/// done again.
+void CompleteFinish(const fs::path& folder) {
+  const auto files = ReadMarker(folder / kFinished).value("files", std::vector<std::string>());
+  std::vector<std::string> stale(kOwnNames.begin(), kOwnNames.end());
+  const nlohmann::json previous = ReadMarker(folder / kMarker);
+  if (previous.is_object()) {
+    for (const auto& name : previous.value("files", std::vector<std::string>())) stale.push_back(name);
+  }
+  for (const std::string& name : files) {
+    if (fs::path(name).filename() == name && fs::exists(folder / PartOf(name)))
+      fs::rename(folder / PartOf(name), folder / name);
+  }
+  for (const std::string& name : stale) {
+    const bool is_new = std::find(files.begin(), files.end(), name) != files.end();
+    // A name with a folder in it is none that we gave.
+    if (!is_new && fs::path(name).filename() == name) fs::remove(folder / name);
+  }
+  RemoveScratch(folder);
+  fs::remove(folder / PartOf(kMarker));
+  fs::rename(folder / kFinished, folder / kMarker);
+  SyncToDisk(folder);
+}
+
 /// Creates `folder` and those above it; returns the new ones, innermost first.
 std::vector<fs::path> CreateFolders(const fs::path& folder) {
   std::error_code error;
@@ -104,9 +142,19 @@ std::string HashOfFile(const fs::path& file) {
 }
 
 ResultsFolder::ResultsFolder(const fs::path& folder, const RunIdentity& identity, const RankGroup& ranks)
-    : folder_(folder), ranks_(ranks) {
+    : folder_(folder), ranks_(ranks), identity_(identity) {
   try {
-    ranks_.RunOnRoot([&] { Claim(identity); });
+    ranks_.RunOnRoot([&] { Claim(); });
+  } catch (const Error&) {
+    Release();
+    throw;
+  }
+}
+
+ResultsFolder::ResultsFolder(const fs::path& folder, const RankGroup& ranks)
+    : folder_(folder), ranks_(ranks), keep_parts_(true) {
+  try {
+    ranks_.RunOnRoot([&] { ClaimUnfinished(); });
   } catch (const Error&) {
     Release();
     throw;
@@ -115,9 +163,47 @@ ResultsFolder::ResultsFolder(const fs::path& folder, const RunIdentity& identity
 
 ResultsFolder::~ResultsFolder() { Release(); }
 
-void ResultsFolder::Claim(const RunIdentity& identity) {
+void ResultsFolder::Claim() {
   created_ = CreateFolders(folder_);
-  RefuseForeignResults(folder_, identity.scene);
+  RefuseForeignResults(folder_, identity_.scene);
+  Lock();
+  keep_parts_ = true;  // those of the run that may be here
+  if (fs::exists(folder_ / kFinished)) {
+    CompleteFinish(folder_);
+    ::close(lock_);
+    Lock();
+  }
+  RefuseToLoseCheckpoints(folder_);
+  keep_parts_ = false;
+  for (const std::string name : kOwnNames) fs::remove(folder_ / PartOf(name));
+  RemoveScratch(folder_);
+  StagedFile(folder_ / PartOf(kMarker)).Write(MarkerOf(identity_).dump(2) + "\n");
+}
+
+void ResultsFolder::ClaimUnfinished() {
+  if (!fs::is_directory(folder_)) {
+    throw Error(fmt::format("there is no folder {}: give that of an unfinished run, as its --out said.", folder_.string()));
+  }
+  if (!fs::exists(folder_ / PartOf(kMarker)) && !fs::exists(folder_ / kFinished)) {
+    const nlohmann::json marker = ReadMarker(folder_ / kMarker);
+    if (!marker.is_null()) RefuseFinished(folder_, marker);
+    throw Error(fmt::format("the folder {} holds no run of nscdd: give that of an unfinished run, as its --out said.",
+                            folder_.string()));
+  }
+  Lock();
+  if (fs::exists(folder_ / kFinished)) {
+    CompleteFinish(folder_);
+    RefuseFinished(folder_, ReadMarker(folder_ / kMarker));
+  }
+  if (CheckpointSteps(folder_).empty()) {
+    throw Error(fmt::format(
+        "the run in {} has no checkpoint (--checkpoint-every was not given, or the run ended before its first step): "
+        "begin it anew with 'nscdd run SCENE'.",
+        folder_.string()));
+  }
+}
+
+void ResultsFolder::Lock() {
   const fs::path marker = folder_ / PartOf(kMarker);
   lock_ = ::open(marker.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) throw Error(CannotWrite(folder_, errno));
@@ -127,8 +213,6 @@ void ResultsFolder::Claim(const RunIdentity& identity) {
     throw Error(fmt::format("another run is writing into {}: wait until it has ended, or choose another folder with --out.",
                             folder_.string()));
   }
-  for (const std::string name : kOwnNames) fs::remove(folder_ / PartOf(name));
-  StagedFile(marker).Write(MarkerOf(identity).dump(2) + "\n");
 }
 
 fs::path ResultsFolder::Stage(const std::string& name) {
@@ -143,27 +227,16 @@ void ResultsFolder::Finish() {
 }
 
 void ResultsFolder::Rename() {
-  const fs::path part = folder_ / PartOf(kMarker);
-  nlohmann::ordered_json marker = nlohmann::ordered_json::parse(ReadAll(part));
+  for (const std::string& name : staged_) SyncToDisk(folder_ / PartOf(name));
+  nlohmann::ordered_json marker = MarkerOf(identity_);
   marker["files"] = staged_;
   for (const auto& [name, value] : counts_) marker["summary"][name] = value;
+  const fs::path part = folder_ / PartOf(kFinished);
   StagedFile(part).Write(marker.dump(2) + "\n");
-
-  std::vector<std::string> stale(kOwnNames.begin(), kOwnNames.end());
-  const nlohmann::json previous = ReadMarker(folder_ / kMarker);
-  if (previous.is_object()) {
-    for (const auto& name : previous.value("files", std::vector<std::string>())) stale.push_back(name);
-  }
-  for (const std::string& name : staged_) SyncToDisk(folder_ / PartOf(name));
   SyncToDisk(part);
-  for (const std::string& name : staged_) fs::rename(folder_ / PartOf(name), folder_ / name);
-  for (const std::string& name : stale) {
-    const bool is_new = std::find(staged_.begin(), staged_.end(), name) != staged_.end();
-    // A name with a folder in it is none that we gave.
-    if (!is_new && fs::path(name).filename() == name) fs::remove(folder_ / name);
-  }
-  fs::rename(part, folder_ / kMarker);
+  fs::rename(part, folder_ / kFinished);  // from here on the run has ended, whatever happens to this process
   SyncToDisk(folder_);
+  CompleteFinish(folder_);
 }
 
 void ResultsFolder::Release() {
@@ -173,6 +246,7 @@ void ResultsFolder::Release() {
   if (lock_ >= 0) {
     if (drop) {
       for (const std::string& name : staged_) fs::remove(folder_ / PartOf(name), ignored);
+      RemoveScratch(folder_);
       fs::remove(folder_ / PartOf(kMarker), ignored);
     }
     ::close(lock_);

@@ -26,12 +26,16 @@ std::string HashOfFile(const std::filesystem::path& file);
 ///
 /// Everything is written under a name ending in ".part", results of an earlier run stay as they are meanwhile; Finish() renames
 /// all of it. A run that ends by an error before its first step leaves nothing behind; one that ends later, or is killed,
-/// leaves its ".part" files (steps.csv.part grows row by row).
+/// leaves its ".part" files (steps.csv.part grows row by row), and its checkpoints if it wrote any (run_files.h).
 class ResultsFolder {
  public:
   /// Collective. Creates the folder if need be and claims it. Throws Error on all ranks when it holds results of another scene
-  /// or another program's files under our names, cannot be written, or another run writes into it now.
+  /// or another program's files under our names, or checkpoints of an unfinished run, cannot be written, or another run writes
+  /// into it now.
   ResultsFolder(const std::filesystem::path& folder, const RunIdentity& identity, const RankGroup& ranks);
+  /// Collective. Claims the folder of an unfinished run to go on with it; whatever happens, that run's files stay. Throws Error
+  /// on all ranks when there is none, it has no checkpoint, it has finished, or it is running.
+  ResultsFolder(const std::filesystem::path& folder, const RankGroup& ranks);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
   ResultsFolder& operator=(const ResultsFolder&) = delete;
@@ -41,6 +45,8 @@ class ResultsFolder {
 
   /// Path under which the file `name` of the results is to be written; Finish() gives it its name. Not collective.
   std::filesystem::path Stage(const std::string& name);
+  /// What run.json will say; for a folder that was claimed without.
+  void Identify(const RunIdentity& identity) { identity_ = identity; }
   /// A number for the "summary" of run.json; before Finish().
   void Count(const std::string& name, std::int64_t value) { counts_.emplace_back(name, value); }
   /// From now on an unfinished run keeps its ".part" files.
@@ -49,12 +55,15 @@ class ResultsFolder {
   void Finish();
 
  private:
-  void Claim(const RunIdentity& identity);
+  void Claim();
+  void ClaimUnfinished();
+  void Lock();
   void Release();
   void Rename();
 
   std::filesystem::path folder_;
   RankGroup ranks_;
+  RunIdentity identity_;
   std::vector<std::string> staged_;
   std::vector<std::pair<std::string, std::int64_t>> counts_;
   std::vector<std::filesystem::path> created_;  ///< folders that were not there before, innermost first

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "nscdd/error.h"
+#include "results/mapped_file.h"
 
 namespace nscdd {
 
@@ -22,6 +23,17 @@ StagedFile::StagedFile(const std::filesystem::path& path) : path_(path) {
   if (descriptor_ < 0) throw Error(CannotWrite(path, errno));
 }
 
+StagedFile::StagedFile(const std::filesystem::path& path, std::uint64_t size) : path_(path), size_(size) {
+  crc_.Add(MappedFile(path).bytes().first(size));
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) throw Error(CannotWrite(path, errno));
+  if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
+    const int system_error = errno;
+    ::close(descriptor_);
+    throw Error(CannotWrite(path, system_error));
+  }
+}
+
 StagedFile::~StagedFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -30,6 +42,8 @@ void StagedFile::Write(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());
     if (written >= 0) {
+      crc_.Add(std::as_bytes(std::span(text.data(), static_cast<std::size_t>(written))));
+      size_ += static_cast<std::uint64_t>(written);
       text.remove_prefix(static_cast<std::size_t>(written));
     } else if (errno != EINTR) {
       throw Error(CannotWrite(path_, errno));
@@ -51,6 +65,19 @@ void SyncToDisk(const std::filesystem::path& path) {
   ::close(descriptor);
   // EINVAL: the file system has no such notion (some network mounts), and then nothing more can be done.
   if (status != 0 && system_error != EINVAL) throw Error(CannotWrite(path, system_error));
+}
+
+void CheckSpace(const std::filesystem::path& path, std::uint64_t bytes) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) throw Error(CannotWrite(path, errno));
+  const off_t end = ::lseek(descriptor, 0, SEEK_END);
+  const bool fits = ::fallocate(descriptor, FALLOC_FL_KEEP_SIZE, end, static_cast<off_t>(bytes)) == 0;
+  const int system_error = errno;
+  const bool is_free_again = ::ftruncate(descriptor, end) == 0;
+  ::close(descriptor);
+  if (!fits && (system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG))
+    throw Error(CannotWrite(path, system_error));
+  if (!is_free_again) throw Error(CannotWrite(path, errno));
 }
 
 }  // namespace nscdd

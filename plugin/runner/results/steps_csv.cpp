@@ -4,18 +4,24 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
+#include "nscdd/error.h"
+#include "results/mapped_file.h"
+#include "results/run_files.h"
 #include "results/staged_file.h"
 
 namespace nscdd {
 namespace {
 
-using Text = std::string (*)(const StepRow&);
-
 struct Column {
   const char* name;
-  Text text;
+  std::string (*text)(const StepRow&);
+  bool (*read)(std::string_view, StepRow*);  ///< false: this is no such text
 };
 
 /// Shortest decimal that reads back as the same double, so equal bits give equal text and unequal ones do not.
@@ -30,16 +36,29 @@ std::string Seconds(const StepRow& row) {
 }
 
 /// A clause without what would need quotes in a table.
-std::string Reason(const StepRow& row) {
-  std::string text = row.reason;
+template <auto Member>
+std::string Clause(const StepRow& row) {
+  std::string text = row.*Member;
   std::replace(text.begin(), text.end(), ',', ';');
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
+template <auto Member>
+bool Read(std::string_view text, StepRow* row) {
+  auto& value = row->*Member;
+  if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+    value = text;
+    return true;
+  } else {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+  }
+}
+
 #define NSCDD_COLUMN(kind, name) \
-  Column { #name, kind < &StepRow::name> }
+  Column { #name, kind < &StepRow::name>, Read < &StepRow::name> }
 
 constexpr std::array kStepColumns = {
     NSCDD_COLUMN(Plain, step),
@@ -83,7 +102,7 @@ constexpr std::array kStepColumns = {
     NSCDD_COLUMN(Plain, worst_body_b),
     NSCDD_COLUMN(Seconds, seconds_total),
     NSCDD_COLUMN(Seconds, seconds_interface),
-    Column{"reason", Reason},
+    NSCDD_COLUMN(Clause, reason),
 };
 
 constexpr std::array kCommunicationColumns = {
@@ -114,15 +133,107 @@ std::string Row(const Columns& columns, const StepRow& row) {
   return Line(columns, [&](const Column& column) { return column.text(row); });
 }
 
+constexpr const char* kSteps = "steps.csv";
+constexpr const char* kCommunication = "communication.csv";
+
+std::unique_ptr<StagedFile> Begin(const std::filesystem::path& path, const std::string& header) {
+  auto file = std::make_unique<StagedFile>(path);
+  file->Write(header);
+  return file;
+}
+
+/// Null if there is none.
+const FileExtent* Find(const std::vector<FileExtent>& kept, const std::string& name) {
+  const auto at = std::find_if(kept.begin(), kept.end(), [&](const FileExtent& e) { return e.name == name; });
+  return at == kept.end() ? nullptr : &*at;
+}
+
+/// Takes rows off the beginning of a file.
+template <class Columns>
+class RowReader {
+ public:
+  RowReader(const std::filesystem::path& path, std::uint64_t size, const Columns& columns)
+      : path_(path), file_(path), rest_(file_.text().substr(0, size)), columns_(columns) {
+    if (TakeLine() + "\n" != Header(columns)) Refuse();
+  }
+
+  bool empty() const { return rest_.empty(); }
+
+  void Take(StepRow* row) {
+    std::string line = TakeLine() + ",";
+    std::string_view cells = line;
+    for (const Column& column : columns_) {
+      const auto comma = cells.find(',');
+      if (comma == std::string_view::npos || !column.read(cells.substr(0, comma), row)) Refuse();
+      cells.remove_prefix(comma + 1);
+    }
+    if (!cells.empty()) Refuse();
+  }
+
+ private:
+  std::string TakeLine() {
+    ++line_;
+    const auto end = rest_.find('\n');
+    if (end == std::string_view::npos) Refuse();
+    const std::string line(rest_.substr(0, end));
+    rest_.remove_prefix(end + 1);
+    return line;
+  }
+
+  [[noreturn]] void Refuse() const {
+    throw Error(fmt::format("{}:{}: is not a row of this program: use the program that wrote it.", path_.string(), line_));
+  }
+
+  std::filesystem::path path_;
+  MappedFile file_;
+  std::string_view rest_;
+  const Columns& columns_;
+  std::int64_t line_ = 0;
+};
+
 }  // namespace
+
+void ForEachStepRow(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
+                    const std::function<void(const StepRow&)>& visit) {
+  const FileExtent *steps = Find(kept, PartOf(kSteps)), *communication = Find(kept, PartOf(kCommunication));
+  if (steps == nullptr) throw Error(fmt::format("the checkpoint in {} does not name {}.", folder.string(), PartOf(kSteps)));
+  RowReader rows(folder / steps->name, steps->size, kStepColumns);
+  std::optional<RowReader<decltype(kCommunicationColumns)>> sent;
+  if (communication != nullptr) sent.emplace(folder / communication->name, communication->size, kCommunicationColumns);
+  StepRow next;  // of communication.csv, which may begin later
+  while (!rows.empty()) {
+    StepRow row;
+    rows.Take(&row);
+    if (sent && next.step < row.step && !sent->empty()) sent->Take(&next);
+    if (next.step == row.step) {
+      row.migrated_bodies = next.migrated_bodies;
+      row.messages = next.messages;
+      row.message_bytes = next.message_bytes;
+      row.collectives = next.collectives;
+    }
+    visit(row);
+  }
+}
 
 StepsCsv::StepsCsv(ResultsFolder* folder) : folder_(folder) {
   folder->ranks().RunOnRoot([&] {
-    steps_ = std::make_unique<StagedFile>(folder->Stage("steps.csv"));
-    steps_->Write(Header(kStepColumns));
-    if (folder->ranks().is_serial()) return;
-    communication_ = std::make_unique<StagedFile>(folder->Stage("communication.csv"));
-    communication_->Write(Header(kCommunicationColumns));
+    steps_ = Begin(folder->Stage(kSteps), Header(kStepColumns));
+    if (!folder->ranks().is_serial()) communication_ = Begin(folder->Stage(kCommunication), Header(kCommunicationColumns));
+  });
+}
+
+StepsCsv::StepsCsv(ResultsFolder* folder, const std::vector<FileExtent>& kept) : folder_(folder) {
+  folder->ranks().RunOnRoot([&] {
+    const auto go_on = [&](const char* name, const FileExtent* extent) {
+      return std::make_unique<StagedFile>(folder->Stage(name), extent->size);
+    };
+    steps_ = go_on(kSteps, Find(kept, PartOf(kSteps)));
+    const FileExtent* communication = Find(kept, PartOf(kCommunication));
+    if (communication != nullptr) {
+      communication_ = go_on(kCommunication, communication);
+    } else if (!folder->ranks().is_serial()) {
+      communication_ = Begin(folder->Stage(kCommunication), Header(kCommunicationColumns));
+    }
   });
 }
 
@@ -134,6 +245,19 @@ void StepsCsv::Append(const StepRow& row) {
     steps_->Write(Row(kStepColumns, row));
     if (communication_) communication_->Write(Row(kCommunicationColumns, row));
   });
+}
+
+std::vector<FileExtent> StepsCsv::Keep() {
+  std::vector<FileExtent> kept;
+  folder_->ranks().RunOnRoot([&] {
+    const auto keep = [&](const char* name, const StagedFile& file) {
+      SyncToDisk(folder_->Stage(name));
+      kept.push_back({PartOf(name), file.size(), file.crc()});
+    };
+    keep(kSteps, *steps_);
+    if (communication_) keep(kCommunication, *communication_);
+  });
+  return kept;
 }
 
 void StepsCsv::Close() {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <vector>
 
+#include "results/file_extent.h"
 #include "results/results_folder.h"
 #include "results/step_row.h"
 
@@ -15,17 +19,26 @@ class StepsCsv {
  public:
   /// Collective. Keeps a reference to `folder`.
   explicit StepsCsv(ResultsFolder* folder);
+  /// Goes on behind `kept`, which an earlier StepsCsv handed out by Keep(), and cuts later rows.
+  StepsCsv(ResultsFolder* folder, const std::vector<FileExtent>& kept);
   ~StepsCsv();
 
   /// Collective; rank 0's row counts. Throws Error on all ranks when it cannot be written.
   void Append(const StepRow& row);
+  /// Collective. Brings the rows to the disk; rank 0 gets what a continuation begins from.
+  std::vector<FileExtent> Keep();
   /// Collective; before ResultsFolder::Finish().
   void Close();
 
  private:
   ResultsFolder* folder_;
   std::unique_ptr<StagedFile> steps_;          ///< rank 0 only
-  std::unique_ptr<StagedFile> communication_;  ///< rank 0 of several only
+  std::unique_ptr<StagedFile> communication_;  ///< rank 0 of several only, and where an earlier run of several ranks began it
 };
+
+/// Calls `visit` for each row of the files in `kept`. Throws Error, naming the file and the line, when one is not what StepsCsv
+/// writes.
+void ForEachStepRow(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
+                    const std::function<void(const StepRow&)>& visit);
 
 }  // namespace nscdd

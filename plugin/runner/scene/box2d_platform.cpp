@@ -58,6 +58,12 @@ class Box2dPlatform final : public Platform {
 
   void SetGravity(Vec2 gravity) override { adapter_.SetGravity(gravity); }
   void SetVelocity(std::int64_t id, const Twist& velocity) override { adapter_.SetVelocity(id, velocity); }
+  bool Restore(std::int64_t id, const Pose& pose, const Twist& velocity) override {
+    if (adapter_.Find(id) == nullptr) return false;
+    adapter_.SetPose(id, pose);
+    adapter_.SetVelocity(id, velocity);
+    return true;
+  }
 
  private:
   /// Box2D squares its floats, and ends the program where one of them is not finite.

@@ -22,6 +22,8 @@ class Platform {
   virtual void SetGravity(Vec2 gravity) = 0;
   /// Velocity of a body that this host holds; throws Error otherwise.
   virtual void SetVelocity(std::int64_t id, const Twist& velocity) = 0;
+  /// Puts a body where it was, bit for bit; false if this host does not hold it.
+  virtual bool Restore(std::int64_t id, const Pose& pose, const Twist& velocity) = 0;
 };
 
 /// An empty platform, "reference" or "box2d", with the scene's periodicity and units. Throws Error on any other name and when

@@ -166,6 +166,7 @@ void ReadOutput(TableReader* root, Scene* scene) {
     scene->output.dir = dir.string();
   }
   if (table->Has("save_every")) scene->output.save_every = table->Integer("save_every", 1, {}, kMostSteps);
+  if (table->Has("checkpoint_every")) scene->output.checkpoint_every = table->Integer("checkpoint_every", 1, {}, kMostSteps);
   if (table->Has("packing")) {
     scene->output.packing = table->Text("packing");
     CheckName(*table, "packing", scene->output.packing);
@@ -185,11 +186,13 @@ void CheckBodies(const TableReader& root, const Scene& scene) {
 
 }  // namespace
 
-Scene ReadSceneFile(const std::filesystem::path& path) {
-  const toml::table text = ParseTomlFile(path);
+Scene ReadSceneFile(const std::filesystem::path& path) { return ParseScene(ReadTomlText(path), path); }
+
+Scene ParseScene(const std::string& text, const std::filesystem::path& path) {
+  const toml::table table = ParseToml(text, path);
   Scene scene;
   scene.file = path;
-  TableReader root(text, "", scene.file);
+  TableReader root(table, "", scene.file);
   ReadHead(&root, &scene);
   ReadTime(&root, &scene);
   ReadGravity(&root, &scene);

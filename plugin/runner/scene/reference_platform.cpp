@@ -23,6 +23,14 @@ class ReferencePlatform final : public Platform {
     body->velocity = velocity;
   }
 
+  bool Restore(std::int64_t id, const Pose& pose, const Twist& velocity) override {
+    reference::Body* body = world_.Find(id);
+    if (body == nullptr) return false;
+    body->pose = pose;
+    body->velocity = velocity;
+    return true;
+  }
+
  private:
   static reference::World* Prepare(const Scene& scene, reference::World* world) {
     if (scene.periodic) {

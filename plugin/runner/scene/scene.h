@@ -104,6 +104,7 @@ struct SolverSettings {
 struct OutputSettings {
   std::string dir;                         ///< empty: the runner's default
   std::optional<std::int64_t> save_every;  ///< steps between two saved states; none: first and last only
+  std::optional<std::int64_t> checkpoint_every;  ///< steps between two checkpoints; none: no checkpoints
   std::string packing;                     ///< file in the output folder that receives the free disks at the end (packing.h)
 };
 

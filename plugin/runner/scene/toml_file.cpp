@@ -17,7 +17,9 @@ namespace {
 constexpr int kDeepestKey = 16;
 constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than that belong in a CSV file
 
-std::string ReadText(const std::filesystem::path& path) {
+}  // namespace
+
+std::string ReadTomlText(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
@@ -32,16 +34,15 @@ std::string ReadText(const std::filesystem::path& path) {
   if (!stream || text.str().empty()) {
     throw Error(fmt::format("{}: is empty or cannot be read; write a scene (see sample_scenes/README.md).", path.string()));
   }
-  if (const int line = FirstLineOutsideUtf8(text.str()); line > 0) {
-    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
-  }
   return text.str();
 }
 
-}  // namespace
+toml::table ParseTomlFile(const std::filesystem::path& path) { return ParseToml(ReadTomlText(path), path); }
 
-toml::table ParseTomlFile(const std::filesystem::path& path) {
-  const std::string text = ReadText(path);
+toml::table ParseToml(const std::string& text, const std::filesystem::path& path) {
+  if (const int line = FirstLineOutsideUtf8(text); line > 0) {
+    throw Error(fmt::format("{}:{}: is not UTF-8 text; save the file in this encoding.", path.string(), line));
+  }
   // toml++ limits the nesting of values, not that of keys.
   if (const int line = FirstLineOfDeepKey(text, kDeepestKey); line > 0) {
     throw Error(fmt::format("{}:{}: has a key of more than {} parts; scenes need two.", path.string(), line, kDeepestKey));

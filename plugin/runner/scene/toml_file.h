@@ -12,6 +12,9 @@ namespace nscdd {
 
 /// Throws Error "FILE:LINE: ..." if there is no such file, it is too large, no UTF-8 text or no TOML.
 toml::table ParseTomlFile(const std::filesystem::path& path);
+/// The two halves of it: the text, and the table of a text that stands, or once stood, at `path`.
+std::string ReadTomlText(const std::filesystem::path& path);
+toml::table ParseToml(const std::string& text, const std::filesystem::path& path);
 
 /// Any value of a solver's option as the text that its option table reads: numbers in the shortest form that reads back the
 /// same, pairs of integers as "2x3".

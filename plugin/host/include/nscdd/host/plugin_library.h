@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,8 +13,8 @@ namespace nscdd {
 /// What this host needs from a plugin.
 struct HostAbi {
   std::uint32_t major = NSCDD_ABI_MAJOR;
-  std::uint32_t minor = NSCDD_ABI_MINOR;  ///< the least
-  std::uint64_t struct_size = sizeof(nscdd_plugin);
+  std::uint32_t minor = 0;  ///< the least
+  std::uint64_t struct_size = offsetof(nscdd_plugin, load_states);  ///< of this minor
   std::string mpi_library;  ///< first line of MPI_Get_library_version
   HostAbi();                ///< of this build
 };
@@ -32,6 +33,8 @@ class PluginLibrary {
 
   const std::string& path() const { return path_; }
   const nscdd_plugin& plugin() const { return *plugin_; }
+  /// Throws Error if the plugin is older than load_states (ABI minor 1): its runs cannot be resumed.
+  void RequireLoadStates() const;
   /// Null if there is no such solver.
   const nscdd_solver_info* FindSolver(const std::string& name) const;
   /// Address of a symbol of the library or of what it depends on; null if there is none.

@@ -66,6 +66,9 @@ class Solver {
 
   std::vector<std::byte> SaveState() const;
   void LoadState(std::span<const std::byte> bytes);
+  /// On any number of ranks: the parts that all ranks saved, each given to one rank; maybe none here. Collective. Throws Error
+  /// also when the plugin is older than load_states.
+  void LoadStates(std::span<const std::span<const std::byte>> parts);
 
   const nscdd_solver_info& info() const { return *info_; }
 
