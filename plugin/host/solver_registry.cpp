@@ -18,7 +18,7 @@ void SolverRegistry::Add(const std::string& path) {
     const auto same = std::find_if(all.begin(), all.end(), [&](const Entry& e) { return name == e.info->name; });
     if (same != all.end()) {
       throw Error(fmt::format("plugin '{}': its solver '{}' has the name of one of plugin '{}'; load only one of the two", path,
-                              name, same->library->path()));
+                              name, same->module->path()));
     }
     all.push_back({library, info});
   }
@@ -35,7 +35,7 @@ const SolverRegistry::Entry& SolverRegistry::Find(const std::string& solver) con
 }
 
 Solver SolverRegistry::Create(const SolverArguments& arguments) const {
-  return Solver(Find(arguments.solver).library, arguments);
+  return Solver(Find(arguments.solver).module, arguments);
 }
 
 }  // namespace nscdd

@@ -7,22 +7,6 @@
 namespace nscdd {
 namespace {
 
-const char* StatusName(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kStalled:
-      return "stalled";
-    case SolveStatus::kIncomplete:
-      return "incomplete";
-    case SolveStatus::kDiverged:
-      break;
-  }
-  return "diverged";
-}
-
 template <class T>
 void Copy(const TableView& table, const char* name, std::vector<T>* column) {
   if constexpr (std::is_same_v<T, double>) {
@@ -44,7 +28,7 @@ StepRow MakeStepRow(const StepReport& s) {
   row.contacts = solve.contacts;
   row.active = solve.active;
   row.iterations = solve.iterations;
-  row.status = StatusName(solve.status);
+  row.status = NameOf(solve.status);
   row.reason = solve.reason;
   row.nat = r.nat;
   row.nat_max = r.nat_max;

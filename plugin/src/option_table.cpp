@@ -226,7 +226,7 @@ std::vector<Option> InterfaceOptions() {
           "interface", [](SolverSettings& s) -> InterfaceSolve& { return Interface(s).solve; }, {"direct", "cg"},
           "assembled and factorised, or by the conjugate gradient among neighbours"),
       Choice<LinearLibrary>(
-          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return Interface(s).library; }, {"auto", "eigen", "mumps"},
+          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return Interface(s).linear_solver; }, {"auto", "eigen", "mumps"},
           "auto is eigen; mumps needs mpirun"),
       Choice<Preconditioner>(
           "preconditioner", [](SolverSettings& s) -> Preconditioner& { return Interface(s).preconditioner; },
@@ -256,7 +256,7 @@ std::vector<Option> NewtonOptionTable() {
           [](SolverSettings& s) -> int& { return std::get<NewtonOptions>(s.algorithm).interior_iterations; }, Range{0, 2147483647},
           "limit of the interior point stage"),
       Choice<LinearLibrary>(
-          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).library; },
+          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).linear_solver; },
           {"auto", "eigen", "mumps"}, "auto is our block LU; mumps needs mpirun"),
   };
 }

@@ -161,9 +161,15 @@ Entry Nat(const std::string& tolerance) {
   return {{"nscd, nat " + tolerance, "nscd", {{"acceleration", "none"}, {"tolerance", tolerance}}}};
 }
 
+/// As by default, with acceleration.
+Entry AcceleratedNat(const std::string& tolerance) {
+  return {{"nscd accelerated, nat " + tolerance, "nscd", {{"tolerance", tolerance}}}};
+}
+
 std::vector<Entry> Entries() {
-  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"),
-          Sweeps("20"), Sweeps("50"),       Nat("1e-2"),   Nat("1e-3"),   Nat("1e-4")};
+  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"),           Sweeps("20"),
+          Sweeps("50"), Nat("1e-2"),        Nat("1e-3"),   Nat("1e-4"),   AcceleratedNat("1e-3"), AcceleratedNat("1e-4"),
+          AcceleratedNat("1e-5")};
 }
 
 void Compare(const Race& race, int runs) {

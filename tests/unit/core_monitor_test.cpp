@@ -112,6 +112,19 @@ TEST(Status, DivergedByGrowth) {
   EXPECT_EQ(report.active, 0);
 }
 
+// nat is relative to the impulses: where they run away it does not.
+TEST(Status, DivergedByNatMaxWhateverTheCriterion) {
+  Watched w(SampleProblem({}));
+  Monitor monitor(w.sample.problem, {}, &w.serial);
+  ASSERT_FALSE(monitor.Stops(5, w.statistics, {}, w.state));
+  for (double& r : w.state.subdomains.front().impulse) r = 1e9;
+  for (double& v : w.state.subdomains.front().velocity) v *= 1e9;
+  ASSERT_TRUE(monitor.Stops(10, w.statistics, {}, w.state));
+  const SolveReport report = monitor.Finish(10, 10, &w.state);
+  EXPECT_EQ(report.status, SolveStatus::kDiverged);
+  ExpectReason(report, "nat_max is");
+}
+
 TEST(Status, DivergedByNotANumber) {
   Watched w(SampleProblem({}));
   const std::size_t contact = w.source.contacts.size() / 2;

@@ -146,7 +146,7 @@ TEST(Newton, SolvesMixedFriction) {
 TEST(Newton, OtherFactorisationsGiveTheSameAnswer) {
   const ContactProblem p = SampleProblem({.friction = 0.3});
   NewtonOptions own = To(1e-9), eigen = own;
-  eigen.library = LinearLibrary::kEigen;
+  eigen.linear_solver = LinearLibrary::kEigen;
   const ContactSolution a = SolveContactProblem(p, own), b = SolveContactProblem(p, eigen);
   EXPECT_EQ(b.report.status, SolveStatus::kConverged);
   for (std::size_t i = 0; i < a.velocity.size(); ++i) EXPECT_NEAR(a.velocity[i].vx, b.velocity[i].vx, 1e-9);
@@ -164,6 +164,20 @@ TEST(Newton, ALimitIsAStatusWithTheBestIterate) {
     double best = INFINITY;
     for (const IterationRecord& record : s.report.history) best = std::min(best, record.nat_max);
     EXPECT_EQ(s.report.residuals.nat_max, best);
+  }
+}
+
+// Asked for more than rounding allows, it stalls near rounding and does not run away; also where the solution is no impulse at all.
+TEST(Newton, StaysWhereRoundingStopsIt) {
+  ContactProblem flight = SampleProblem({.friction = 0.4});
+  for (double& offset : flight.offset) offset += 1.0;
+  for (const ContactProblem& p : {SampleProblem({.friction = 0.4}), SampleProblem({.friction = 0.0}), flight}) {
+    NewtonOptions o = To(1e-30);
+    o.stopping.stall_iterations = 400;
+    const ContactSolution s = SolveContactProblem(p, o);
+    EXPECT_NE(s.report.status, SolveStatus::kDiverged) << s.report.reason;
+    EXPECT_LT(s.report.residuals.nat_max, 1e-7);
+    for (const IterationRecord& record : s.report.history) EXPECT_LT(record.nat_max, 1e3) << "iteration " << record.iteration;
   }
 }
 

@@ -296,5 +296,13 @@ TEST(NotANumber, ReachesEveryMeasureAndNamesTheContact) {
   }
 }
 
+// Impulses whose squares overflow once made the relative residual vanish.
+TEST(Nat, AnOverflowIsNoSmallResidual) {
+  const ResidualScales scales{1.0, 1.0, 1.0};
+  EXPECT_TRUE(std::isnan(Nat(1e300, INFINITY, scales)));
+  EXPECT_TRUE(std::isnan(Nat(INFINITY, INFINITY, scales)));
+  EXPECT_EQ(Nat(4.0, 16.0, scales), 0.5);
+}
+
 }  // namespace
 }  // namespace nscdd

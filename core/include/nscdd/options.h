@@ -116,7 +116,7 @@ struct AugmentedInterfaceOptions {
   double restoring = 0.0;       ///< [-] part of the interpenetration that the linear problem alone asks to undo in a step: its
                                 ///< search direction becomes (r~ - r) + Lambda (v~ - v - restoring max(0, -gap) / dt) = 0 on normals
   InterfaceSolve solve = InterfaceSolve::kDirect;
-  LinearLibrary library = LinearLibrary::kAuto;
+  LinearLibrary linear_solver = LinearLibrary::kAuto;
   Preconditioner preconditioner = Preconditioner::kLumped;
   double cg_tolerance = 1e-4;  ///< [-] fall of the jump of the augmented velocities in one update
   int cg_max_iterations = 2000;
@@ -158,7 +158,7 @@ struct NewtonOptions {
   StoppingOptions stopping{Criterion::kNat, 1e-6, 600, 1, 150};
   double interior_residual = 1e-2;  ///< [-] nat_max at which the interior point stage hands over; 1e-5 when nat_max 1e-8 is wanted
   int interior_iterations = 200;    ///< at most
-  LinearLibrary library = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
+  LinearLibrary linear_solver = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
 };
 
 using AlgorithmOptions = std::variant<NscdOptions, NscddOptions, FeaOptions, ReaOptions, IeaOptions, NewtonOptions>;

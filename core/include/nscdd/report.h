@@ -14,9 +14,26 @@ enum class SolveStatus {
   kConverged,       ///< the criterion fell below its tolerance (or there was no contact)
   kIterationLimit,  ///< max_iterations reached first
   kStalled,         ///< no new minimum of the residual for stall_iterations iterations, or no further step was possible
-  kDiverged,        ///< the residual is not finite, or above 1e6 times the first one and above 1
+  kDiverged,        ///< the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1
   kIncomplete,      ///< an incomplete resolution (REA, IEA) did all that it does; the criterion does not hold for the whole sample
 };
+
+/// The word of a status in files and options.
+constexpr const char* NameOf(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kStalled:
+      return "stalled";
+    case SolveStatus::kIncomplete:
+      return "incomplete";
+    case SolveStatus::kDiverged:
+      break;
+  }
+  return "diverged";
+}
 
 /// Natural residuals of the global problem at the end, and what the last tested sweep changed. Definitions: residual.h.
 struct Residuals {

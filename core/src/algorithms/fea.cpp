@@ -52,11 +52,7 @@ SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, 
       stages.SwapMeans();
       guard.Watch(k, monitor.residuals().interface_jump);
     }
-    if (options.jump_guard && guard.IsPlain(k)) {
-      stages.GlueMeans();
-    } else {
-      stages.UpdateInterface();  // stage 2
-    }
+    stages.UpdateInterface(options.jump_guard && guard.IsPlain(k));  // stage 2
     anderson.Extrapolate(k, state);
   }
   return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));

@@ -159,13 +159,20 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
   const char* name = Name(options_.criterion);
   if (first_ < 0.0) {
     first_ = best_ = measure;
+    first_nat_max_ = r.nat_max;
     best_iteration_ = iteration;
     KeepBest(state);
   }
 
   // nat is infinite, which is no divergence, before the first impulse of bodies without loads.
-  if (std::isnan(r.nat) || !std::isfinite(r.nat_max) || (measure > 1.0 && measure > 1e6 * first_)) {
+  const bool grew = measure > 1.0 && measure > 1e6 * first_;
+  if (std::isnan(r.nat) || !std::isfinite(r.nat_max) || grew) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g} after {:.3g} at the first test", name, measure, first_));
+    return true;
+  }
+  // The relative residual of impulses that run away stays near 1.
+  if (r.nat_max > 1e6 * std::max(1.0, first_nat_max_)) {
+    Stop(SolveStatus::kDiverged, fmt::format("nat_max is {:.3g} after {:.3g} at the first test", r.nat_max, first_nat_max_));
     return true;
   }
   if (measure <= options_.tolerance) {

@@ -58,6 +58,7 @@ class Monitor {
   SolveReport report_;
   NaturalParts worst_;   // of this rank's subdomains
   double first_ = -1.0;  // measure at the first test
+  double first_nat_max_ = 0.0;
   double best_ = 0.0;
   int best_iteration_ = 0;
   bool keep_best_;

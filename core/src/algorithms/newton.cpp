@@ -19,7 +19,7 @@ class NewtonSolve {
         options_(options),
         monitor_(problem, options.stopping, communicator, /*keep_best=*/true),
         rows_(rows),
-        system_(problem.subdomains.front(), rows, options.library),
+        system_(problem.subdomains.front(), rows, options.linear_solver),
         state_(state) {}
 
   SolveReport Run() {

@@ -29,9 +29,9 @@ void Stages::SweepSubdomains(int sweeps) {
   }
 }
 
-void Stages::UpdateInterface() {
+void Stages::UpdateInterface(bool plain) {
   ++updates_;
-  if (augmented_) {
+  if (augmented_ && !plain) {
     augmented_->Update(gluing_, left_, state_);
   } else {
     gluing_.Glue(&state_->subdomains, &state_->interface);

@@ -23,8 +23,8 @@ class Stages {
   void SweepSubdomains(int sweeps);
   /// U and the jumps of the copies.
   void MeasureJump() { gluing_.Measure(state_->subdomains, &jumps_); }
-  /// Stage 2, after MeasureJump(): X dF = [V], or X_lambda F = ...
-  void UpdateInterface();
+  /// Stage 2, after MeasureJump(): X_lambda F = ..., or X dF = [V] where lambda is zero or `plain`.
+  void UpdateInterface(bool plain = false);
   /// The plain stage 2, X dF = [V], whatever lambda: V_E := U. After MeasureJump().
   void GlueMeans() { gluing_.Glue(&state_->subdomains, &state_->interface); }
   /// V_E and U change places on the copies, after MeasureJump().

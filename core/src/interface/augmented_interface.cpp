@@ -48,7 +48,7 @@ AugmentedInterface::AugmentedInterface(const PartitionedProblem& problem, const 
   for (const SubdomainProblem& p : problem.subdomains) parts_.emplace_back(p, options, mass, RestoringSpeeds(problem, p, options));
   if (options.solve == InterfaceSolve::kDirect) {
     if (!workspace->shared) {
-      workspace->shared = std::make_unique<KeptSolver>(MakeSharedSolver(options.library, communicator), communicator);
+      workspace->shared = std::make_unique<KeptSolver>(MakeSharedSolver(options.linear_solver, communicator), communicator);
     }
     direct_ = std::make_unique<Direct>(problem, parts_, communicator, workspace->shared.get());
   } else {

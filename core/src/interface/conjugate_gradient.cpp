@@ -21,11 +21,11 @@ AugmentedInterface::ConjugateGradient::ConjugateGradient(const PartitionedProble
       dofs_(parts.front().dofs()),
       average_(problem.interface, dofs_, communicator) {
   while (workspace_->local.size() < parts.size()) {
-    workspace_->local.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.library), communicator));
+    workspace_->local.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.linear_solver), communicator));
   }
   if (options.preconditioner != Preconditioner::kDirichlet) return;
   while (workspace_->interior.size() < parts.size()) {
-    workspace_->interior.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.library), communicator));
+    workspace_->interior.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.linear_solver), communicator));
   }
   for (std::size_t e = 0; e < parts.size(); ++e) interior_.emplace_back(parts[e].nodes(), 0);
   for (const auto& copy : problem.interface.copies) interior_[copy.problem][parts[copy.problem].NodeOf(copy.body)] = -1;

@@ -43,10 +43,7 @@ class SharedMumps final : public LinearSolver {
 }  // namespace
 
 std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry) {
-  if (library != LinearLibrary::kMumps) {
-    if (symmetry == Symmetry::kGeneral) return std::make_unique<EigenLuSolver>();
-    return std::make_unique<EigenSolver>();
-  }
+  if (library != LinearLibrary::kMumps) return MakeEigenSolver(symmetry);
   if (!IsMpiInitialised()) {
     throw Error("linear_solver = mumps needs MPI, also on one process: start the program with mpirun -n 1, or choose eigen");
   }

@@ -29,12 +29,15 @@ class ProximalNewton {
         stiffness_(rows.size()) {}
 
   /// One proximal step of at most `budget` factorisations, at least one. Where the inner iteration fails and the worst natural
-  /// residual has not fallen, the state is that of before and rho is doubled. False: no step is possible.
+  /// residual has not fallen, or it is ten times the best one, the state is that of before and rho is doubled: at the level of
+  /// rounding, which 1 / rho multiplies, residuals would grow without end. False: no step is possible.
   bool Step(int budget, int* factorisations) {
     const SubdomainState before = *state_;
     const bool solved = SolveInner(std::min(20, budget), factorisations);
     TakeImpulses();
-    if (!solved && !(Worst(*state_) < Worst(before))) {
+    const double was = Worst(before), is = Worst(*state_);
+    best_ = std::min(best_, was);
+    if ((!solved && !(is < was)) || !(is <= 10.0 * best_)) {
       *state_ = before;
       centre_ = state_->impulse;
       rho_ *= 2.0;
@@ -139,6 +142,7 @@ class ProximalNewton {
   const SubdomainProblem& problem_;
   std::vector<ContactLaw<Row>> laws_;
   double rho_;
+  double best_ = INFINITY;  // worst natural residual of the best state [m/s]
   BodySystem<Row>* system_;
   SubdomainState* state_;
   std::vector<double> centre_;

@@ -79,6 +79,7 @@ NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainSta
 
 double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) {
   if (sum_e2 == 0.0) return 0.0;
+  if (!std::isfinite(sum_r2)) return NAN;  // an overflow is no small residual
   return std::sqrt(sum_e2) / std::max(std::sqrt(sum_r2), 1e-3 * scales.impulse);
 }
 

@@ -18,11 +18,13 @@
 #include "problem/initial_state.h"
 #include "problem/option_checks.h"
 #include "problem/subdomain_builder.h"
+#include "stepping/alert_distance.h"
 #include "stepping/contact_checks.h"
 #include "stepping/final_gap.h"
 #include "stepping/impulse_cache.h"
 #include "stepping/reconcile.h"
 #include "stepping/saved_state.h"
+#include "stepping/step_outcome.h"
 
 namespace nscdd {
 namespace {
@@ -32,10 +34,6 @@ double SecondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw Error(sentence);
-}
-
-bool IsFinite(const BodyRecord& b) {
-  return std::isfinite(b.pose.x + b.pose.y + b.pose.angle) && std::isfinite(b.velocity.vx + b.velocity.vy + b.velocity.spin);
 }
 
 }  // namespace
@@ -90,8 +88,7 @@ class TimeStepper::Impl {
   std::vector<std::byte> SaveState() const;
   void LoadState(std::span<const std::span<const std::byte>> parts);
 
-  std::vector<BodyRecord> body_records_;
-  std::vector<ContactRecord> contact_records_;
+  StepOutcome outcome_;
 
  private:
   const BodyTable& bodies() const { return distribution_.population().bodies; }
@@ -104,7 +101,6 @@ class TimeStepper::Impl {
   }
 
   void Distribute(double dt);
-  void ChooseAlertDistance();
   double alert() const { return std::max(0.0, alert_); }
   void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers);
   void Detect();
@@ -117,8 +113,6 @@ class TimeStepper::Impl {
   void Advance(double dt);
   void RecordContacts(double half);
   void Summarise(double dt);
-  void CheckResult() const;
-  void CommitStep();
   void CountCommunication(const CommunicationCounters& before);
 
   SteppingOptions stepping_;
@@ -164,7 +158,8 @@ void TimeStepper::Impl::Distribute(double dt) {
     distribution_.TakeOver(std::move(read));
   });
   if (is_cache_scattered_) DeliverToOwners(bodies().id, communicator_, &cache_);
-  if (alert_ < 0.0) ChooseAlertDistance();
+  if (alert_ < 0.0) alert_ = stepping_.alert_distance;
+  if (alert_ < 0.0) alert_ = DefaultAlertDistance(bodies(), communicator_);
   const double half = (1.0 - stepping_.theta) * dt;
   if (description_.period > 0.0 && step_ == 0) grid_.SetPeriod(description_.period_origin, description_.period);
   const auto drift_all = [&] {
@@ -193,32 +188,6 @@ void TimeStepper::Impl::Distribute(double dt) {
     }
   });
   sharing_ = distribution_.Share(std::move(pairs));
-}
-
-/// A tenth of the mean disk radius of free bodies, once there are some. Radii are summed as multiples of 2^-26 of the largest: exact in any order.
-void TimeStepper::Impl::ChooseAlertDistance() {
-  alert_ = stepping_.alert_distance;
-  if (alert_ >= 0.0) return;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < rows(); ++i) {
-    if (IsFree(i)) largest = std::min(largest, -bodies().radius[i]);
-  }
-  communicator_->AllReduceMin({&largest, 1});
-  largest = -largest;
-  double mine[2] = {0.0, 0.0};
-  const double unit = std::ldexp(1.0, 26);
-  for (std::size_t i = 0; i < rows(); ++i) {
-    if (!IsFree(i)) continue;
-    mine[0] += largest > 0.0 ? std::round(bodies().radius[i] / largest * unit) : 0.0;
-    mine[1] += 1.0;
-  }
-  const std::vector<double> all = communicator_->AllGather(mine);
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < all.size(); i += 2) {
-    sum += all[i];
-    count += all[i + 1];
-  }
-  if (count > 0.0) alert_ = 0.1 * largest * (sum / unit / count);
 }
 
 /// The grid covers the centres of the free bodies (minima and maxima are exact in any order).
@@ -379,19 +348,19 @@ void TimeStepper::Impl::SolveProblem(double dt) {
 void TimeStepper::Impl::Advance(double dt) {
   const double half = stepping_.theta * dt;
   RecordContacts(half);
-  body_records_.clear();
+  outcome_.bodies.clear();
   for (std::size_t i = 0; i < rows(); ++i) {
     if (!distribution_.Owns(i)) continue;
     const BodyTable& t = bodies();
-    body_records_.push_back({t.id[i], t.kind[i], t.radius[i], Drift(detection_[i], velocity_[i], half), velocity_[i],
+    outcome_.bodies.push_back({t.id[i], t.kind[i], t.radius[i], Drift(detection_[i], velocity_[i], half), velocity_[i],
                              sharing_.Multiplicity(i), HomeOf(detection_[i])});
   }
   Summarise(dt);
-  RunTogether(communicator_, [&] { CommitStep(); });
+  RunTogether(communicator_, [&] { outcome_.Commit(adapter_); });
 }
 
 void TimeStepper::Impl::RecordContacts(double half) {
-  contact_records_.clear();
+  outcome_.contacts.clear();
   const bool arms = contacts_.has_arms();
   for (std::size_t e = 0; e < chosen_.size(); ++e) {
     for (const std::int32_t c : chosen_[e]) {
@@ -406,7 +375,7 @@ void TimeStepper::Impl::RecordContacts(double half) {
       const double bound = contacts_.friction[c] * impulse_[c].x;
       const int status = impulse_[c].x <= 0.0 ? 0 : std::abs(impulse_[c].y) < bound ? 1 : 2;
       const Vec2 point = Centre(detection_[a]) + (arms ? contacts_.arm_a[c] : Vec2{}) + contacts_.lever_a[c] * contacts_.normal[c];
-      contact_records_.push_back({KeyOf(contacts_, c, bodies().id), contacts_.gap[c],
+      outcome_.contacts.push_back({KeyOf(contacts_, c, bodies().id), contacts_.gap[c],
                                   FinalGap(contacts_, c, detection_[a], detection_[b], moved(a), moved(b), shift),
                                   contacts_.normal[c], point, impulse_[c], relative_velocity_[c], status,
                                   first_subdomain_ + static_cast<int>(e)});
@@ -429,18 +398,18 @@ void TimeStepper::Impl::Summarise(double dt) {
     const Vec2 drift = (1.0 - stepping_.theta) * dt * Linear(bodies().velocity[i]) + stepping_.theta * dt * Linear(v);
     part[6] = std::max(part[6], std::sqrt(Dot(drift, drift)));
   }
-  parts.front()[7] = std::all_of(body_records_.begin(), body_records_.end(), IsFinite) ? 0.0 : 1.0;
+  parts.front()[7] = outcome_.IsFinite() ? 0.0 : 1.0;
   std::size_t row = 0;
   for (std::size_t e = 0; e < chosen_.size(); ++e) {
     for (const std::int32_t c : chosen_[e]) {
-      const double interpenetration = std::max(0.0, -contact_records_[row++].final_gap);
+      const double interpenetration = std::max(0.0, -outcome_.contacts[row++].final_gap);
       parts[e][3] += interpenetration;
       parts[e][4] += impulse_[c].x * std::max(0.0, -NormalOffset(stepping_, contacts_.gap[c], 0.0, 0.0, 0.0, dt));
       parts[e][5] = std::max(parts[e][5], interpenetration);
     }
   }
   const auto t = ReduceInOrder<5, 3>(parts, communicator_);
-  if (t[7] > 0.0) RunTogether(communicator_, [&] { CheckResult(); });
+  if (t[7] > 0.0) RunTogether(communicator_, [&] { outcome_.RequireFinite(); });
   report_.kinetic_energy = t[0];
   report_.momentum_x = t[1];
   report_.momentum_y = t[2];
@@ -449,35 +418,6 @@ void TimeStepper::Impl::Summarise(double dt) {
   report_.injected_energy = t[4];
   report_.max_drift = t[6];
   report_.alert_distance = alert();
-}
-
-void TimeStepper::Impl::CheckResult() const {
-  const auto bad = std::find_if_not(body_records_.begin(), body_records_.end(), IsFinite);
-  if (bad == body_records_.end()) return;
-  throw Error(fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", bad->id));
-}
-
-void TimeStepper::Impl::CommitStep() {
-  std::vector<std::int64_t> id;
-  std::vector<Pose> pose;
-  std::vector<Twist> velocity;
-  id.reserve(body_records_.size());
-  pose.reserve(body_records_.size());
-  velocity.reserve(body_records_.size());
-  for (const BodyRecord& body : body_records_) {
-    id.push_back(body.id);
-    pose.push_back(body.pose);
-    velocity.push_back(body.velocity);
-  }
-  std::vector<ContactKey> key;
-  std::vector<Vec2> impulse;
-  key.reserve(contact_records_.size());
-  impulse.reserve(contact_records_.size());
-  for (const ContactRecord& contact : contact_records_) {
-    key.push_back(contact.key);
-    impulse.push_back(contact.impulse);
-  }
-  adapter_->Commit({id, pose, velocity, key, impulse});
 }
 
 void TimeStepper::Impl::CountCommunication(const CommunicationCounters& before) {
@@ -521,7 +461,7 @@ const StepReport& TimeStepper::Step(double dt) { return impl_->Step(dt); }
 std::vector<std::byte> TimeStepper::SaveState() const { return impl_->SaveState(); }
 void TimeStepper::LoadState(std::span<const std::byte> bytes) { impl_->LoadState({&bytes, 1}); }
 void TimeStepper::LoadState(std::span<const std::span<const std::byte>> parts) { impl_->LoadState(parts); }
-std::span<const BodyRecord> TimeStepper::bodies() const { return impl_->body_records_; }
-std::span<const ContactRecord> TimeStepper::contacts() const { return impl_->contact_records_; }
+std::span<const BodyRecord> TimeStepper::bodies() const { return impl_->outcome_.bodies; }
+std::span<const ContactRecord> TimeStepper::contacts() const { return impl_->outcome_.contacts; }
 
 }  // namespace nscdd

@@ -19,7 +19,7 @@ std::string NameOf(const nscdd_plugin& plugin) { return fmt::format("{} {}", plu
 
 /// What follows from the record, the scene and the solver.
 void Complete(RunPlan* plan) {
-  const PluginLibrary& library = *plan->registry.Find(plan->choice.name).library;
+  const PluginLibrary& library = *plan->registry.Find(plan->choice.name).module;
   if (plan->record.checkpoint_every > 0) library.RequireLoadStates();
   plan->record.plugin = NameOf(library.plugin());
   const std::string grid = OptionValue(plan->choice, plan->registry, "subdomains");

@@ -30,7 +30,7 @@ void ListSolvers(const std::string& plugin) {
   SolverRegistry registry;
   const std::string path = FindPlugin(plugin);
   registry.Add(path);
-  const nscdd_plugin& description = registry.entries().front().library->plugin();
+  const nscdd_plugin& description = registry.entries().front().module->plugin();
   fmt::print("{} {} ({})\n", description.name, description.version, path);
   for (const auto& entry : registry.entries()) {
     fmt::print("\n{}: {}\n", entry.info->name, entry.info->summary);

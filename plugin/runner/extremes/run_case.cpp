@@ -21,22 +21,6 @@ using OptionList = std::vector<std::pair<std::string, std::string>>;
 /// Larger of the two; not a number if one of them is not.
 double WorstOf(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-std::string Name(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kStalled:
-      return "stalled";
-    case SolveStatus::kIncomplete:
-      return "incomplete";
-    case SolveStatus::kDiverged:
-      break;
-  }
-  return "diverged";
-}
-
 /// Options of the case and of the column, those that the solver has.
 OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver,
                       const RunLimits& limits) {
@@ -92,7 +76,7 @@ class CaseRun {
     outcome_.nat = WorstOf(outcome_.nat, solve.residuals.nat);
     outcome_.nat_max = WorstOf(outcome_.nat_max, solve.residuals.nat_max);
     if (outcome_.status.empty() || solve.status != SolveStatus::kConverged) {
-      outcome_.status = Name(solve.status);
+      outcome_.status = NameOf(solve.status);
       outcome_.sentence = solve.reason;
     }
     if (report.max_drift > std::min(report.alert_distance, report.mean_radius)) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tradeoff/contact_motion.h"
+#include "problem/contact_motion.h"
 
 namespace nscdd {
 namespace {
@@ -93,7 +93,7 @@ AnswerResiduals MeasureAnswer(const ContactProblem& p, const Answer& answer, con
   double speed = std::max(scales.velocity, p.approach_speed);
   for (const double offset : p.offset) speed = std::max(speed, -offset);  // speeds of recovery
   AnswerResiduals result;
-  result.nat = e2 == 0.0 ? 0.0 : std::sqrt(e2) / std::max(std::sqrt(r2), 1e-3 * scales.impulse);
+  result.nat = e2 == 0.0 ? 0.0 : std::isfinite(r2) ? std::sqrt(e2) / std::max(std::sqrt(r2), 1e-3 * scales.impulse) : NAN;
   result.nat_max = speed > 0.0 ? worst / speed : 0.0;
   result.momentum_defect = scales.energy > 0.0 ? std::sqrt(defect / scales.energy) : 0.0;
   result.energy_defect = scales.energy > 0.0 ? work / scales.energy : 0.0;

@@ -8,7 +8,7 @@
 
 #include "nscdd/error.h"
 #include "scene/names.h"
-#include "tradeoff/contact_motion.h"
+#include "problem/contact_motion.h"
 
 namespace nscdd {
 namespace {

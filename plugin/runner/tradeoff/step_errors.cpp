@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tradeoff/contact_motion.h"
+#include "problem/contact_motion.h"
 
 namespace nscdd {
 namespace {

@@ -27,7 +27,11 @@ constexpr Panel kPanels[] = {{"problems", Accuracy::kVelocityError, "same proble
                              {"runs", Accuracy::kInterpenetration, "whole runs: largest interpenetration [mean radii]"},
                              {"runs", Accuracy::kNat, "whole runs: nat"}};
 
-/// A colour each.
+/// gnuplot's own colours repeat after eight.
+constexpr const char* kColours[] = {"#9400d3", "#c994c7", "#56b4e9", "#0033cc", "#e6ab02", "#009e73",
+                                    "#f4a582", "#b2182b", "#888888", "#80cdc1", "#01665e", "#000000"};
+
+/// A colour and a mark each.
 std::string FamilyOf(const Setting& setting) {
   if (setting.name == kSceneSetting) return setting.name;
   const std::string name = setting.is_box2d() ? "Box2D" : setting.solver;
@@ -61,8 +65,8 @@ std::string PanelScript(const Panel& panel, int number, const std::vector<Tradeo
     ++family;
     if (data.empty()) continue;
     script += fmt::format("$d{}_{} << EOD\n{}EOD\n", number, family, data);
-    plot += fmt::format("{}$d{}_{} with points pt {} lc {} ps 1.1 title {}", plot.empty() ? "" : ", \\\n  ", number, family,
-                        family + 3, family, Quoted(name));
+    plot += fmt::format("{}$d{}_{} with points pt {} lc rgb '{}' ps 1.1 title {}", plot.empty() ? "" : ", \\\n  ", number, family,
+                        family + 3, kColours[(family - 1) % std::size(kColours)], Quoted(name));
   }
   script += fmt::format("set title {}\n", Quoted(panel.title));
   if (plot.empty()) return script + "set multiplot next\n";

@@ -13,7 +13,7 @@ namespace nscdd {
 class SolverRegistry {
  public:
   struct Entry {
-    std::shared_ptr<const PluginLibrary> library;
+    std::shared_ptr<const PluginLibrary> module;
     const nscdd_solver_info* info;
   };
 
