@@ -21,6 +21,29 @@ double Dot(const double* a, const double* b, std::size_t n) {
   return (s[0] + s[1]) + (s[2] + s[3]);
 }
 
+/// f := g - s and df := f - (f before), weighted := weight df; the vectors do not overlap.
+void Subtract(std::size_t n, const double* __restrict g, const double* __restrict s, const double* __restrict weight,
+              double* __restrict f, double* __restrict df, double* __restrict weighted) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const double now = g[k] - s[k];
+    const double difference = now - f[k];
+    f[k] = now;
+    df[k] = difference;
+    weighted[k] = weight[k] * difference;
+  }
+}
+
+/// sum weight f^2, as Dot().
+double WeightedNorm2(const double* weight, const double* f, std::size_t n) {
+  double s[4] = {};
+  std::size_t k = 0;
+  for (; k + 4 <= n; k += 4) {
+    for (int i = 0; i < 4; ++i) s[i] += weight[k + i] * f[k + i] * f[k + i];
+  }
+  for (; k < n; ++k) s[0] += weight[k] * f[k] * f[k];
+  return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
 template <class Row>
 void AppendWeights(const std::vector<Row>& rows, std::vector<double>* weight) {
   for (const Row& c : rows) {
@@ -111,12 +134,7 @@ std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedStat
     double* g = part.images.data() + image_ * n;
     double* df = part.differences.data() + slot * n;
     Pack(e, state, g);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double f = g[k] - part.start[k];
-      df[k] = f - part.residual[k];
-      part.residual[k] = f;
-      part.weighted[k] = part.weight[k] * df[k];
-    }
+    Subtract(n, g, part.start.data(), part.weight.data(), part.residual.data(), df, part.weighted.data());
     sums[e] = {};
     const int kept = has_residual_ ? std::min(count_ + 1, depth_) : 0;
     for (int age = 0; age < kept; ++age) {
@@ -124,8 +142,7 @@ std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedStat
       sums[e][age] = Dot(part.weighted.data(), part.differences.data() + other * n, n);
     }
     sums[e][kNumbers - 2] = Dot(part.weighted.data(), part.residual.data(), n);
-    for (std::size_t k = 0; k < n; ++k) part.weighted[k] = part.weight[k] * part.residual[k];
-    sums[e][kNumbers - 1] = Dot(part.weighted.data(), part.residual.data(), n);
+    sums[e][kNumbers - 1] = WeightedNorm2(part.weight.data(), part.residual.data(), n);
   }
   return ReduceInOrder<kNumbers, 0>(sums, communicator_);
 }
