@@ -32,6 +32,7 @@ int Grid::Index(double x, double low, double width, int count) {
 }
 
 int Grid::CellOf(Vec2 point) const {
+  if (cells() == 1) return 0;
   return Index(Wrap(point.x), low_.x, width_, nx_) + nx_ * Index(point.y, low_.y, height_, ny_);
 }
 

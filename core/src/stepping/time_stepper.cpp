@@ -105,6 +105,7 @@ class TimeStepper::Impl {
   void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers);
   void Detect();
   void SelectContacts();
+  std::vector<std::pair<std::int32_t, std::int32_t>> TouchedBodies() const;
   void Prepare(double dt);
   void ComputeFreeVelocity(double dt);
   void ComputeOffsets(double dt);
@@ -179,13 +180,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   RunTogether(communicator_, [&] {
     Detect();
     SelectContacts();
-    for (std::size_t e = 0; e < chosen_.size(); ++e) {
-      for (const std::int32_t c : chosen_[e]) {
-        for (const std::int32_t body : {contacts_.a[c], contacts_.b[c]}) {
-          if (IsFree(body)) pairs.emplace_back(body, first_subdomain_ + static_cast<std::int32_t>(e));
-        }
-      }
-    }
+    pairs = TouchedBodies();
   });
   sharing_ = distribution_.Share(std::move(pairs));
 }
@@ -230,6 +225,24 @@ void TimeStepper::Impl::SelectContacts() {
     chosen_[e].push_back(static_cast<std::int32_t>(c));
     solved_.push_back(static_cast<std::int32_t>(c));
   }
+}
+
+/// (row, subdomain) of every free body with a contact in one of this rank's subdomains, each once.
+std::vector<std::pair<std::int32_t, std::int32_t>> TimeStepper::Impl::TouchedBodies() const {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  std::vector<std::int32_t> last(rows(), -1);  // subdomain that named the row last
+  pairs.reserve(rows());
+  for (std::size_t e = 0; e < chosen_.size(); ++e) {
+    const int subdomain = first_subdomain_ + static_cast<int>(e);
+    for (const std::int32_t c : chosen_[e]) {
+      for (const std::int32_t body : {contacts_.a[c], contacts_.b[c]}) {
+        if (last[body] == subdomain || !IsFree(body)) continue;
+        last[body] = subdomain;
+        pairs.emplace_back(body, subdomain);
+      }
+    }
+  }
+  return pairs;
 }
 
 // 5 build.
