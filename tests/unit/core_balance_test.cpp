@@ -167,10 +167,13 @@ constexpr double kGrain = std::numbers::pi * kG;
 /// For gtest's report.
 void Record(const LongRun& run) {
   testing::Test::RecordProperty("steps", run.steps);
-  const std::pair<const char*, double> numbers[] = {
-      {"largest_defect", run.largest_defect}, {"largest_rise", run.largest_rise}, {"energy_at_half", run.first},
-      {"energy_at_end", run.last},            {"highest_energy", run.highest},    {"work_of_walls", run.walls},
-      {"sources", run.sources}};
+  const std::pair<const char*, double> numbers[] = {{"largest_defect", run.largest_defect},
+                                                    {"largest_rise", run.largest_rise},
+                                                    {"energy_at_half", run.first},
+                                                    {"energy_at_end", run.last},
+                                                    {"highest_energy", run.highest},
+                                                    {"work_of_walls", run.walls},
+                                                    {"sources", run.sources}};
   for (const auto& [name, number] : numbers) testing::Test::RecordProperty(name, fmt::format("{:.3g}", number / kGrain));
 }
 
