@@ -59,8 +59,8 @@ def rotating_box(_):
 
 
 def rocking_box(_):
-    """The same box, but gravity goes to and fro for ever: g_x is a triangle wave of 100 steps. Contacts that never open gather the
-    solver's residual, so interpenetration is undone by feedback."""
+    """The same box, but gravity goes to and fro for ever: g_x is a triangle wave of 100 steps. Contacts that never open gather
+    the solver's residual, so interpenetration is undone by feedback."""
 
     def gravity(k):
         phase = (k - 1) % (2 * TURN_STEPS) / TURN_STEPS
@@ -108,7 +108,8 @@ class Run:
     def __init__(self, scene, program, steps, settings, folder):
         self.scene, self.steps, self.samples = scene, steps, []
         out, start = folder / "out", time.monotonic()
-        command = [program, "run", scene.write(steps, folder), "--steps", steps, "--save-every", steps, "--quiet", "--out", out]
+        command = [program, "run", scene.write(steps, folder), "--steps", steps, "--save-every", steps, "--quiet",
+                   "--out", out]
         process = subprocess.Popen([*map(str, command), *(settings or scene.settings)], stdin=subprocess.DEVNULL)
         while process.poll() is None:
             memory, step = resident(process.pid), last_step(out / "steps.csv.part")

@@ -14,13 +14,14 @@ class Made:
     """Rows as nscdd would write them, of grains at rest in the box or moving for ever; `spoil` changes row k."""
 
     def __init__(self, rests, spoil=lambda k, row: None, memory=lambda k: 28000, grain=("1.0", "1.0")):
-        self.scene, self.steps = scenes.rotating_box(0.0) if rests else scenes.rocking_box(0.0), STEPS
+        self.scene = scenes.rotating_box(0.0) if rests else scenes.rocking_box(0.0)
+        self.steps = STEPS
         self.samples = [(k, memory(k)) for k in range(1, STEPS + 1, 10)]
         self.rows = []
         for k in range(1, STEPS + 1):
             row = {"step": k, "time": 0.01 * k, "kinetic_energy": 0.0 if rests else 1.0, "momentum_x": 0.0, "momentum_y": 0.0,
-                   "mean_interpenetration": 1e-4, "max_interpenetration": 1e-3, "mean_radius": 1.0, "contacts": 1500, "sweeps": 3,
-                   "status": "converged", "max_drift": 0.01}
+                   "mean_interpenetration": 1e-4, "max_interpenetration": 1e-3, "mean_radius": 1.0, "contacts": 1500,
+                   "sweeps": 3, "status": "converged", "max_drift": 0.01}
             spoil(k, row)
             self.rows.append(row)
         self.grains = [dict(zip("xy", grain))]
