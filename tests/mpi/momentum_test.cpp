@@ -1,0 +1,142 @@
+// Momentum of every step: what the free bodies gain is what gravity and walls give, to rounding, for every solver on 1, 2 and 4
+// ranks (those of one subdomain on one), converged or not. Started on four ranks; smaller numbers of ranks are parts of them.
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "nscdd/mpi_communicator.h"
+#include "nscdd/reference/reference_adapter.h"
+#include "packing.h"
+
+namespace nscdd::test {
+namespace {
+
+constexpr double kDt = 0.01;
+constexpr Vec2 kGravity{2.9, -9.4};
+constexpr double kTolerance = 1e-13;  ///< of the sum of all impulses
+
+struct Named {
+  const char* name;
+  AlgorithmOptions options;
+  int most_ranks = 4;
+};
+
+std::vector<Named> Solvers() {
+  const PartitionOptions grid{3, 2, 1};
+  const StoppingOptions loose{.tolerance = 1e-3, .max_iterations = 60};
+  FeaOptions fea;
+  ReaOptions rea;
+  IeaOptions iea;
+  const auto prepare = [&](auto* options) {
+    options->stopping = loose;
+    options->partition = grid;
+  };
+  prepare(&fea);
+  prepare(&rea);
+  prepare(&iea);
+  FeaOptions fea_cg = fea;
+  IeaOptions iea_cg = iea;
+  fea_cg.interface.solve = iea_cg.interface.solve = InterfaceSolve::kCg;
+  return {{"nscd", NscdOptions{loose, {}}, 1},
+          {"nscdd", NscddOptions{loose, grid, 1, {}}},
+          {"nscdd, plain", NscddOptions{loose, grid, 1, {.method = Acceleration::kNone}}},
+          {"fea", fea},
+          {"fea, cg", fea_cg},
+          {"rea", rea},
+          {"iea", iea},
+          {"iea, cg", iea_cg},
+          {"newton", NewtonOptions{}, 1}};
+}
+
+/// Sums over the ranks, added in their order.
+std::vector<double> Sum(const std::vector<double>& mine, Communicator* communicator) {
+  const std::vector<double> all = communicator->AllGather(mine);
+  std::vector<double> sum(mine.size());
+  for (std::size_t i = 0; i < all.size(); ++i) sum[i % mine.size()] += all[i];
+  return sum;
+}
+
+/// Largest | sum m (V' - V - dt g) - impulses of walls | of three steps, over the sum of all impulses and loads.
+double LargestDefect(const Packing& packing, const AlgorithmOptions& options, Communicator* communicator) {
+  reference::World world;
+  world.gravity = kGravity;
+  if (packing.periodic) world.period = 2.0 * packing.columns;
+  const std::vector<reference::Body> all = MakeBodies(packing);
+  std::map<std::int64_t, reference::Body> bodies;
+  Vec2 momentum{};
+  double mass = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    bodies[all[k].id] = all[k];
+    if (static_cast<int>(k) % communicator->size() == communicator->rank()) world.Add(all[k]);
+    if (all[k].kind != BodyKind::kFree) continue;
+    momentum = momentum + all[k].mass * Linear(all[k].velocity);
+    mass += all[k].mass;
+  }
+  reference::ReferenceAdapter adapter(&world);
+  TimeStepper stepper({}, options, &adapter, communicator);
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    stepper.Step(kDt);
+    Vec2 after{}, walls{};
+    double impulses = 0.0;
+    for (const BodyRecord& b : stepper.bodies()) {
+      if (b.kind == BodyKind::kFree) after = after + bodies.at(b.id).mass * Linear(b.velocity);
+    }
+    for (const ContactRecord& c : stepper.contacts()) {
+      const Vec2 on_b = c.impulse.x * c.normal + c.impulse.y * Vec2{c.normal.y, -c.normal.x};
+      impulses += Norm(on_b);
+      if (bodies.at(c.key.body_a).kind != BodyKind::kFree) walls = walls + on_b;
+      if (bodies.at(c.key.body_b).kind != BodyKind::kFree) walls = walls - on_b;
+    }
+    const std::vector<double> sum = Sum({after.x, after.y, walls.x, walls.y, impulses}, communicator);
+    const Vec2 now{sum[0], sum[1]};
+    const double defect = Norm(now - momentum - mass * kDt * kGravity - Vec2{sum[2], sum[3]});
+    largest = std::max(largest, sum[4] > 0.0 ? defect / (sum[4] + mass * kDt * Norm(kGravity)) : 1.0);
+    momentum = now;
+  }
+  return largest;
+}
+
+/// Number of failures, the same on all ranks.
+int Check(const Named& solver, int ranks, int rank) {
+  int failures = 0;
+  MPI_Comm part;
+  MPI_Comm_split(MPI_COMM_WORLD, rank < ranks ? 0 : MPI_UNDEFINED, rank, &part);
+  if (part != MPI_COMM_NULL) {
+    {
+      MpiCommunicator communicator(part);
+      double largest = 0.0;
+      for (const Packing& packing : {Packing{}, Packing{.clusters = true}, Packing{.restitution = 0.5, .turning_wall = true},
+                                     Packing{.periodic = true}, Packing{.friction = 0.0}}) {
+        largest = std::max(largest, LargestDefect(packing, solver.options, &communicator));
+      }
+      failures = !(largest < kTolerance);
+      if (rank == 0) fmt::print("{} {} on {} ranks: {:.1e}\n", failures ? "FAILED" : "ok    ", solver.name, ranks, largest);
+    }
+    MPI_Comm_free(&part);
+  }
+  MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return failures;
+}
+
+}  // namespace
+}  // namespace nscdd::test
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  int failures = 0;
+  for (const auto& solver : nscdd::test::Solvers()) {
+    for (const int ranks : {1, 2, 4}) {
+      if (ranks <= solver.most_ranks) failures += nscdd::test::Check(solver, ranks, rank);
+    }
+  }
+  MPI_Finalize();
+  return failures == 0 ? 0 : 1;
+}
