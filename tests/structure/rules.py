@@ -65,6 +65,8 @@ FORBIDDEN_TEXT = [
     (r"std::c(out|err)\b|\bf?printf\(|\bfmt::print\(", ("core/", "plugin/src/", "adapters/"),
      ("adapters/conformance/", "adapters/box2d/example/", "README.md"),
      "a library prints nothing"),
+    (r"std::j?thread\b|std::async\b|\bpthread_create\b|#pragma omp\b", ("core/", "plugin/", "adapters/"), (),
+     "processes share nothing; with a thread the thread sanitizer would have to run, see tests/sanitizers"),
 ]
 
 TOP_LEVEL = {
