@@ -1,0 +1,89 @@
+"""A copy of the checkout in a folder of its own, with its own build: the user's tree is never touched."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+from fault import FaultError
+
+# mpirun as root, and with more ranks than cores.
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+
+
+class BuildError(Exception):
+    """The last lines that the compiler said."""
+
+
+class WorkCopy:
+    def __init__(self, source, folder, preset, jobs):
+        self.source = source
+        self.folder = folder
+        self.preset = preset
+        self.jobs = jobs
+        self.build_folder = folder / "build" / preset
+        self.environment = {**os.environ, **MPI, "CCACHE_BASEDIR": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def update(self):
+        """Makes the copy equal to the checkout, as it is now; files that are equal keep their time."""
+        listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=self.source,
+                                capture_output=True, check=True).stdout
+        names = {name for name in os.fsdecode(listed).split("\0") if name and (self.source / name).is_file()}
+        for path in [p for p in self.folder.rglob("*") if p.is_file() and self.folder / "build" not in p.parents]:
+            if path.relative_to(self.folder).as_posix() not in names:
+                path.unlink()
+        for name in sorted(names):
+            self.write(name, (self.source / name).read_bytes())
+            (self.folder / name).chmod((self.source / name).stat().st_mode)
+
+    def write(self, name, content):
+        path = self.folder / name
+        if path.is_file() and path.read_bytes() == content:
+            return
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+
+    def spoil(self, fault):
+        text = (self.source / fault.file).read_text(encoding="utf-8")
+        self.write(fault.file, fault.spoiled(text).encode())
+
+    def restore(self, fault):
+        self.write(fault.file, (self.source / fault.file).read_bytes())
+
+    def run(self, command):
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode != 0:
+            raise BuildError("\n".join(done.stdout.splitlines()[-20:]))
+
+    def configure(self):
+        self.run(["cmake", "--preset", self.preset])
+
+    def build(self, outputs=()):
+        """Builds these outputs of the build, by path; all without any."""
+        self.run(["ninja", "-C", str(self.build_folder), "-j", str(self.jobs), *outputs])
+
+    def tests(self):
+        """Name of each test -> the outputs of the build that its command or environment names."""
+        listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build_folder, env=self.environment, text=True,
+                                capture_output=True, check=True).stdout
+        return {test["name"]: self.outputs_of(test) for test in json.loads(listed)["tests"]}
+
+    def outputs_of(self, test):
+        words = list(test.get("command", []))
+        for entry in test.get("properties", []):
+            if entry["name"] == "ENVIRONMENT":
+                words += [variable.partition("=")[2] for variable in entry["value"]]
+        found = set()
+        for word in words:
+            path = pathlib.Path(word)
+            if self.build_folder in path.parents and path.suffix in ("", ".so") and path.is_file():
+                found.add(path.relative_to(self.build_folder).as_posix())
+        return found
+
+    def outputs_for(self, tests, pattern):
+        found = set().union(*(outputs for name, outputs in tests.items() if pattern.search(name)))
+        if not found:
+            raise FaultError(f"no test with a program of the build has a name like {pattern.pattern}: adapt faults.toml.")
+        return sorted(found)
