@@ -19,7 +19,10 @@ class Fault:
     old: str
     new: str
     what: str
-    tests: str  # expected to catch it, a regular expression for ctest -R
+    tests: str  # expected to catch it, a regular expression as for ctest -R
+
+    def expects(self, test):
+        return re.search(self.tests, test) is not None
 
     def spoiled(self, text):
         """The file's text with the fault in it."""

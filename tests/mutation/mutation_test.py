@@ -51,7 +51,8 @@ class MutationTest(unittest.TestCase):
     def test_table_keeps_what_is_above_its_mark(self):
         path = self.root / "README.md"
         path.write_text(f"above\n{MARK}\nold\n")
-        write_table(path, [Result(Fault(**ENTRY), "unit_core.A", False, 1.0), Result(Fault(**ENTRY), "", False, 1.0)], "c0ffee", 60.0)
+        results = [Result(Fault(**ENTRY), test, False, 1.0) for test in ("unit_core.A", "")]
+        write_table(path, results, "c0ffee", 60.0)
         text = path.read_text()
         self.assertRegex(text, "^above\n")
         self.assertNotIn("old\n", text)

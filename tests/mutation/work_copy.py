@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 from fault import FaultError
@@ -65,12 +66,15 @@ class WorkCopy:
         self.run(["ninja", "-C", str(self.build_folder), "-j", str(self.jobs), *outputs])
 
     def tests(self):
-        """Name of each test -> the outputs of the build that its command or environment names."""
+        """Name and needed outputs of each test, in the order of ctest's numbers."""
         listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build_folder, env=self.environment, text=True,
                                 capture_output=True, check=True).stdout
-        return {test["name"]: self.outputs_of(test) for test in json.loads(listed)["tests"]}
+        # Of parameters without a name GoogleTest prints the bytes, which are not always the same.
+        bytes_of_parameter = re.compile(r"(  # |/\d+-byte object ).*")
+        return [(bytes_of_parameter.sub("", test["name"]), self.outputs_of(test)) for test in json.loads(listed)["tests"]]
 
     def outputs_of(self, test):
+        """The outputs of the build that a test's command or environment names."""
         words = list(test.get("command", []))
         for entry in test.get("properties", []):
             if entry["name"] == "ENVIRONMENT":
@@ -82,8 +86,9 @@ class WorkCopy:
                 found.add(path.relative_to(self.build_folder).as_posix())
         return found
 
-    def outputs_for(self, tests, pattern):
-        found = set().union(*(outputs for name, outputs in tests.items() if pattern.search(name)))
+    def outputs_for(self, fault, tests):
+        """What the tests that are expected to catch a fault need."""
+        found = set().union(*(outputs for name, outputs in tests if fault.expects(name)))
         if not found:
-            raise FaultError(f"no test with a program of the build has a name like {pattern.pattern}: adapt faults.toml.")
+            raise FaultError(f"no test has a name like {fault.tests}, as fault {fault.name} expects: adapt faults.toml.")
         return sorted(found)
