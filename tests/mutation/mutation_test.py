@@ -6,6 +6,7 @@ import unittest
 
 from fault import Fault, FaultError, check, fault_from, read_faults
 from result import MARK, Result, write_table
+from work_copy import WorkCopy
 
 ENTRY = {"name": "sign", "file": "a.cpp", "old": "x + y", "new": "x - y", "what": "wrong sign", "tests": "unit_core"}
 
@@ -47,6 +48,12 @@ class MutationTest(unittest.TestCase):
         (self.root / "faults.toml").write_text(f"[[fault]]\n{table}[[fault]]\n{table}")
         with self.assertRaisesRegex(FaultError, "2 faults named sign"):
             read_faults(self.root / "faults.toml")
+
+    def test_a_folder_of_others_is_left_alone(self):
+        (self.root / "thesis.tex").write_text("")
+        with self.assertRaisesRegex(FaultError, "not empty"):
+            WorkCopy(self.root, self.root, "release", 1).update()
+        self.assertEqual([path.name for path in self.root.iterdir()], ["thesis.tex"])
 
     def test_table_keeps_what_is_above_its_mark(self):
         path = self.root / "README.md"

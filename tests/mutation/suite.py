@@ -59,13 +59,17 @@ def run_tests(copy, wants, timeout):
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
     verdict = Verdict()
     running, since = "", time.monotonic()
-    for line in lines(process, lambda: time.monotonic() > since + timeout + 10.0):  # ctest's own limit comes first
-        if match := START.search(line):
-            running, since = names[int(match[1])], time.monotonic()
-        elif match := RESULT.search(line):
-            verdict.count += 1
-            if match[3] not in (None, "Skipped", "Disabled") and not verdict.test:
-                verdict.test, verdict.timed_out = names[int(match[1])], match[3] == "Timeout"
+    try:
+        for line in lines(process, lambda: time.monotonic() > since + timeout + 10.0):  # ctest's own limit comes first
+            if match := START.search(line):
+                running, since = names[int(match[1])], time.monotonic()
+            elif match := RESULT.search(line):
+                verdict.count += 1
+                if match[3] not in (None, "Skipped", "Disabled") and not verdict.test:
+                    verdict.test, verdict.timed_out = names[int(match[1])], match[3] == "Timeout"
+    except BaseException:
+        stop(process)
+        raise
     if process.wait() < 0 and not verdict.test:
         verdict.test, verdict.timed_out = running, True
     if process.returncode > 0 and not verdict.test:

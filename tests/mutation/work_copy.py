@@ -17,6 +17,9 @@ class BuildError(Exception):
     """The last lines that the compiler said."""
 
 
+MARK = ".mutation_copy"  # in a folder that may be overwritten
+
+
 class WorkCopy:
     def __init__(self, source, folder, preset, jobs):
         self.source = source
@@ -28,11 +31,14 @@ class WorkCopy:
 
     def update(self):
         """Makes the copy equal to the checkout, as it is now; files that are equal keep their time."""
+        if any(self.folder.iterdir()) and not (self.folder / MARK).exists():
+            raise FaultError(f"{self.folder} is not empty and no copy of an earlier time: give a new folder.")
+        (self.folder / MARK).touch()
         listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=self.source,
                                 capture_output=True, check=True).stdout
         names = {name for name in os.fsdecode(listed).split("\0") if name and (self.source / name).is_file()}
         for path in [p for p in self.folder.rglob("*") if p.is_file() and self.folder / "build" not in p.parents]:
-            if path.relative_to(self.folder).as_posix() not in names:
+            if path.relative_to(self.folder).as_posix() not in names | {MARK}:
                 path.unlink()
         for name in sorted(names):
             self.write(name, (self.source / name).read_bytes())

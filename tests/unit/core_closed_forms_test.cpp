@@ -211,7 +211,7 @@ TEST(NormalLaws, FeedbackUndoesInterpenetrationDownToTheSlop) {
   }
 }
 
-// Where nothing loads the bodies, the speeds of recovery are the scale of nat_max: a column is not solved after its first sweep.
+// Where nothing loads the bodies, the speeds of recovery are the scale of nat_max: a column is not solved by its first sweep.
 TEST(NormalLaws, RecoveryIsAScaleWithoutLoads) {
   NscdOptions nscd = Exact();
   nscd.stopping.criterion = Criterion::kNatMax;
