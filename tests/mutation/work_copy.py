@@ -27,6 +27,7 @@ class WorkCopy:
         self.preset = preset
         self.jobs = jobs
         self.build_folder = folder / "build" / preset
+        self.outputs = set()  # of the build, relative to its folder
         self.environment = {**os.environ, **MPI, "CCACHE_BASEDIR": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def update(self):
@@ -63,9 +64,12 @@ class WorkCopy:
                               stderr=subprocess.STDOUT, text=True, check=False)
         if done.returncode != 0:
             raise BuildError("\n".join(done.stdout.splitlines()[-20:]))
+        return done.stdout
 
     def configure(self):
         self.run(["cmake", "--preset", self.preset])
+        listed = self.run(["ninja", "-C", str(self.build_folder), "-t", "targets", "all"])
+        self.outputs = {line.partition(": ")[0] for line in listed.splitlines()}
 
     def build(self, outputs=()):
         """Builds these outputs of the build, by path; all without any."""
@@ -85,12 +89,9 @@ class WorkCopy:
         for entry in test.get("properties", []):
             if entry["name"] == "ENVIRONMENT":
                 words += [variable.partition("=")[2] for variable in entry["value"]]
-        found = set()
-        for word in words:
-            path = pathlib.Path(word)
-            if self.build_folder in path.parents and path.suffix in ("", ".so") and path.is_file():
-                found.add(path.relative_to(self.build_folder).as_posix())
-        return found
+        paths = [pathlib.Path(word) for word in words]
+        ours = {path.relative_to(self.build_folder).as_posix() for path in paths if self.build_folder in path.parents}
+        return ours & self.outputs
 
     def outputs_for(self, fault, tests):
         """What the tests that are expected to catch a fault need."""
