@@ -58,14 +58,15 @@ class MutationTest(unittest.TestCase):
     def test_table_keeps_what_is_above_its_mark(self):
         path = self.root / "README.md"
         path.write_text(f"above\n{MARK}\nold\n")
-        results = [Result(Fault(**ENTRY), test, False, 1.0) for test in ("unit_core.A", "")]
+        entry = {**ENTRY, "what": "wrong |sign|"}
+        results = [Result(Fault(**entry), test, False, 1.0) for test in ("unit_core.A", "")]
         write_table(path, results, "c0ffee", 60.0)
         text = path.read_text()
         self.assertRegex(text, "^above\n")
         self.assertNotIn("old\n", text)
         self.assertIn("2 faults, 1 caught (0 by a time-out), 1 not", text)
-        self.assertIn("| `sign`: wrong sign | a.cpp | `unit_core.A` |", text)
-        self.assertIn("| `sign`: wrong sign | a.cpp | **nobody** |", text)
+        self.assertIn("| `sign`: wrong \\|sign\\| | a.cpp | `unit_core.A` |", text)
+        self.assertIn("| `sign`: wrong \\|sign\\| | a.cpp | **nobody** |", text)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ class Result:
 
     def row(self):
         caught = f"`{self.caught_by}`" if self.caught_by else "**nobody**"
-        return (f"| `{self.fault.name}`: {self.fault.what} | {self.fault.file} | "
+        what = self.fault.what.replace("|", "\\|")
+        return (f"| `{self.fault.name}`: {what} | {self.fault.file} | "
                 f"{caught}{', by its time-out' if self.timed_out else ''} |")
 
 
