@@ -21,14 +21,15 @@ struct Case {
 };
 
 std::vector<Case> Cases() {
-  NscddOptions two, four, many, crowded, lazy;
-  for (NscddOptions* o : {&two, &four, &many, &crowded, &lazy}) o->stopping.max_iterations = 300;
+  NscddOptions two, four, many, crowded, lazy, strips;
+  for (NscddOptions* o : {&two, &four, &many, &crowded, &lazy, &strips}) o->stopping.max_iterations = 300;
   two.partition = {2, 2, 1};
   four.partition = {1, 4, 1};
   many.partition = {4, 3, 1};
   many.sweeps_per_stage = 3;
   crowded.partition = {23, 17, 1};
   lazy.partition = {3, 2, 4};
+  strips.partition = {1, 23, 1};  // cuts of ranks between grains and their only contacts
   SteppingOptions cold, feedback, qm16;
   cold.warm_start = false;
   feedback.normal_law = NormalLaw::kFeedback;
@@ -36,12 +37,14 @@ std::vector<Case> Cases() {
   by_qm16.stopping.criterion = Criterion::kQm16;
   return {{"friction", {}, {}, two},
           {"frictionless", {.friction = 0.0}, {}, four},
+          {"half_rough", {.half_rough = true}, {}, four},  // the uppermost rank sees no friction
           {"clusters", {.clusters = true}, {}, many},
           {"frictionless_clusters", {.friction = 0.0, .clusters = true}, {}, two},
           {"periodic", {.periodic = true}, {}, many},
           {"turning_wall", {.restitution = 0.4, .turning_wall = true}, {}, two},
           {"all_on_the_interface", {.columns = 6, .rows = 5}, feedback, crowded},
           {"lazy_partition", {}, cold, lazy},
+          {"one_contact_each", {.pegs = true}, {}, strips},
           {"qm16", {}, {}, by_qm16}};
 }
 

@@ -18,6 +18,12 @@ constexpr double kGravity = 9.81;
 reference::Body MakeFloor(const Packing& p, double width) {
   const double height = p.turning_wall ? -0.6 : p.periodic ? -0.7 : -1.0;  // the floor's top is at 0
   reference::Body floor = reference::MakeWall(0, {0.5 * width, height, 0.0});
+  if (p.pegs) {
+    for (int i = 0; i < p.rows * p.columns; ++i) {
+      floor.disks.push_back({{2.0 * (i % p.columns) + 1.0 - 0.5 * width, 3.0 * (i / p.columns) + 1.0}, 0.5});
+    }
+    return floor;
+  }
   if (p.turning_wall) {
     floor.velocity.spin = 0.2;
     for (int i = 0; i < 2 * p.columns; ++i) floor.disks.push_back({{i - 0.5 * width, 0.0}, 0.6});
@@ -32,9 +38,21 @@ reference::Body MakeFloor(const Packing& p, double width) {
   return floor;
 }
 
+std::vector<reference::Body> MakePegs(const Packing& p) {
+  std::vector<reference::Body> bodies{MakeFloor(p, 2.0 * p.columns)};
+  bodies.front().friction = p.friction;
+  for (int i = 0; i < p.rows * p.columns; ++i) {
+    const Vec2 centre{2.0 * (i % p.columns) + 1.1, 3.0 * (i / p.columns) + 0.995};
+    bodies.push_back(reference::MakeDisk(1 + i, centre, 0.5, 1.0));
+    bodies.back().friction = p.friction;
+  }
+  return bodies;
+}
+
 }  // namespace
 
 std::vector<reference::Body> MakeBodies(const Packing& p) {
+  if (p.pegs) return MakePegs(p);
   std::mt19937 random(7);
   const auto uniform = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
   const double width = 2.0 * p.columns;
@@ -49,7 +67,7 @@ std::vector<reference::Body> MakeBodies(const Packing& p) {
       const bool dumb_bell = p.clusters && bodies.size() % 5 == 0;
       const reference::Disk pair[2] = {{centre - Vec2{0.4, 0.1}, 0.6}, {centre + Vec2{0.4, 0.1}, 0.5}};
       reference::Body body = dumb_bell ? reference::MakeCluster(id, pair, 1.0) : reference::MakeDisk(id, centre, radius, 1.0);
-      body.friction = p.friction;
+      body.friction = p.half_rough && 2 * row >= p.rows ? 0.0 : p.friction;
       body.restitution = p.restitution;
       body.velocity = {uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(-0.2, 0.2)};
       bodies.push_back(body);

@@ -21,6 +21,8 @@ struct Packing {
   bool periodic = false;
   bool clusters = false;      ///< every fifth grain is a dumb-bell
   bool turning_wall = false;  ///< the floor is a wheel of disks that turns
+  bool half_rough = false;    ///< grains of the upper half have no friction
+  bool pegs = false;          ///< instead: every grain by itself on a fixed disk
   double tilt = 0.3;          ///< [rad]
 };
 

@@ -200,6 +200,30 @@ TEST_F(Box2dGeometry, PolygonIsSolid) {
   EXPECT_DOUBLE_EQ(c.lever_b[of_box[2]], -0.25);
 }
 
+TEST_F(Box2dGeometry, EveryCornerOfAPolygonIsRound) {
+  b2Body* box = AddBody(&world_, b2_staticBody, {0.0f, 0.0f});
+  b2PolygonShape shape;
+  shape.SetAsBox(2.0f, 1.0f);
+  box->CreateFixture(&shape, 0.0f);
+  for (const float x : {-1.0f, 1.0f}) {
+    for (const float y : {-1.0f, 1.0f}) {
+      AddDisk(&world_, {2.375f * x, 1.5f * y}, 0.5f);  // nearest to the upper or lower side
+      AddDisk(&world_, {2.5f * x, 1.375f * y}, 0.5f);  // nearest to the left or right one
+    }
+  }
+  const ContactTable c = Detect(&adapter_, 0.2);
+  int corners = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (c.a[i] != 0) continue;
+    ++corners;
+    EXPECT_DOUBLE_EQ(c.gap[i], 0.125);
+    EXPECT_EQ(c.flat[i], 0);
+    EXPECT_EQ(std::abs(c.site[i].x), 2.0);
+    EXPECT_EQ(std::abs(c.site[i].y), 1.0);
+  }
+  EXPECT_EQ(corners, 8);
+}
+
 TEST_F(Box2dGeometry, TurnedAndMovedWall) {
   const auto angle = static_cast<float>(std::numbers::pi / 6.0);
   b2Body* wall = AddBody(&world_, b2_kinematicBody, {5.0f, -3.0f}, angle);

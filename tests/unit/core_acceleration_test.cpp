@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "algorithms/algorithms.h"
+#include "algorithms/anderson.h"
+#include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"
 #include "problem/initial_state.h"
@@ -90,6 +92,25 @@ TEST(Acceleration, SolvesColumnsAndHeavyTops) {
   EXPECT_GT(plain.report.iterations, 3000);
 }
 
+// What an extrapolation leaves to the next sweep obeys the law of friction, also where impulses vanish or slide.
+TEST(Acceleration, ExtrapolatesInsideTheCones) {
+  const ContactProblem p = SampleProblem({.friction = 0.6});
+  const Sample sample(p);
+  SerialCommunicator serial;
+  PartitionedState state = InitialState(sample.problem, {});
+  Anderson anderson(sample.problem, {}, nullptr, &serial, state);
+  for (int k = 1; k <= 40; ++k) {
+    Sweep(sample.problem.subdomains.front(), &state.subdomains.front());
+    anderson.Extrapolate(k, &state);
+    const std::vector<double>& r = state.subdomains.front().impulse;
+    for (std::size_t i = 0; i < r.size(); i += 2) {
+      ASSERT_GE(r[i], 0.0) << "iteration " << k;
+      ASSERT_LE(std::abs(r[i + 1]), 0.6 * r[i]) << "iteration " << k;
+    }
+  }
+  EXPECT_GT(anderson.Close({}).extrapolations, 20);
+}
+
 // With friction the safeguard has work to do, and the state is a swept one: the cone holds exactly, the residual is that of the
 // report and V = V_f + M^-1 H r.
 TEST(Acceleration, ReturnsASweptState) {
@@ -146,6 +167,20 @@ TEST(JumpGuard, LetsEveryLambdaConverge) {
     const ContactSolution s = SolveContactProblem(p, o);
     EXPECT_EQ(s.report.status, SolveStatus::kConverged) << "lambda " << lambda << ": " << s.report.reason;
     EXPECT_LT(LargestDifference(nscdd, s), 1e-6) << "lambda " << lambda;
+  }
+}
+
+// With the velocities of now in the search direction the copies drift apart, and only the guard undoes it.
+TEST(JumpGuard, IsNeededWithCurrentVelocities) {
+  const ContactProblem p = SampleProblem({.columns = 12, .rows = 12, .friction = 0.0, .subdomains = 6});
+  for (const bool guarded : {true, false}) {
+    FeaOptions o{To(1e-6), {}, 1, {}, {}, guarded};
+    o.stopping.test_every = 5;
+    o.stopping.max_iterations = 1000;
+    o.interface.local_velocity = LocalVelocity::kCurrent;
+    o.interface.lambda = 1.0;
+    const SolveReport report = SolveContactProblem(p, o).report;
+    EXPECT_EQ(report.status == SolveStatus::kConverged, guarded) << report.reason;
   }
 }
 

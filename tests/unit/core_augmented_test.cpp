@@ -8,6 +8,7 @@
 
 #include "algorithms/algorithms.h"
 #include "algorithms/stages.h"
+#include "interface/augmented_subdomain.h"
 #include "nscdd/error.h"
 #include "problem/initial_state.h"
 #include "problem/problem_file.h"
@@ -137,6 +138,78 @@ TEST(AugmentedInterface, ConjugateGradientIsTheDirectSolve) {
       }
     }
   }
+}
+
+// The velocities of prescribed bodies are known to both solves.
+TEST(AugmentedInterface, MovingWallsEnterTheUpdate) {
+  ContactProblem source = SampleProblem({.subdomains = 4});
+  source.free_velocity.back() = {0.3, 0.2, 0.0};  // the wall
+  AugmentedInterfaceOptions o;
+  o.compatibility = Compatibility::kFull;
+  o.cg_tolerance = 1e-13;
+  o.cg_max_iterations = 100000;
+  Halfway direct(source, 3), cg(source, 3);
+  direct.Update(o);
+  o.solve = InterfaceSolve::kCg;
+  cg.Update(o);
+  const std::vector<double>&expected = direct.state.interface.impulse, &found = cg.state.interface.impulse;
+  double norm = 0.0;
+  for (const double f : expected) norm = std::max(norm, std::abs(f));
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-9 * norm);
+}
+
+// lambda / W_nn of whole masses, whatever the multiplicities: the diagonal of M~ + Lambda G G^T from the contact table.
+TEST(AugmentedInterface, ContactsAreWeightedByWholeMasses) {
+  const ContactProblem source = SampleProblem({.subdomains = 4});
+  const Sample sample(source);
+  AugmentedInterfaceOptions o;
+  o.lambda = 3.0;
+  o.lambda_scale = LambdaScale::kContact;
+  for (const SubdomainProblem& p : sample.problem.subdomains) {
+    AugmentedSubdomain part(p, o, 1.0);
+    SubdomainState state;
+    state.impulse.assign(2 * p.contact_count(), 1.0);
+    part.ChooseColumns(state);
+    std::vector<double> expected;
+    for (int i = 0; i < part.nodes(); ++i) {
+      const int row = p.body[part.CopyOf(i)];
+      double x = source.mass[row] / sample.sharing.Multiplicity(row), y = x;
+      for (const std::int32_t c : p.contact) {
+        const int a = source.contacts.a[c], b = source.contacts.b[c];
+        if (a != row && b != row) continue;
+        const double weight = 3.0 / (sample.inverse_mass[a] + sample.inverse_mass[b]);
+        x += weight * source.contacts.normal[c].x * source.contacts.normal[c].x;
+        y += weight * source.contacts.normal[c].y * source.contacts.normal[c].y;
+      }
+      expected.insert(expected.end(), {x, y});
+    }
+    const std::vector<double> diagonal = part.Diagonal();
+    ASSERT_EQ(diagonal.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(diagonal[i], expected[i], 1e-12 * expected[i]);
+  }
+}
+
+// At a small lambda each preconditioner costs more than the one before and saves iterations.
+TEST(AugmentedInterface, PreconditionersSaveIterations) {
+  ContactProblem blocks = SampleProblem({.columns = 16, .rows = 16, .subdomains = 4});
+  for (std::size_t c = 0; c < blocks.subdomain.size(); ++c) {
+    const int body = blocks.contacts.a[c] < 256 ? blocks.contacts.a[c] : blocks.contacts.b[c];
+    blocks.subdomain[c] = body % 16 / 8 + 2 * (body / 128);
+  }
+  std::vector<std::int64_t> iterations;
+  for (const Preconditioner preconditioner :
+       {Preconditioner::kNone, Preconditioner::kDiagonal, Preconditioner::kLumped, Preconditioner::kDirichlet}) {
+    FeaOptions fea;
+    fea.stopping.tolerance = 0.0;
+    fea.stopping.max_iterations = 10;
+    fea.acceleration.method = Acceleration::kNone;
+    fea.interface.lambda = 1.0;
+    fea.interface.solve = InterfaceSolve::kCg;
+    fea.interface.preconditioner = preconditioner;
+    fea.interface.cg_tolerance = 1e-8;
+    iterations.push_back(SolveContactProblem(blocks, fea).report.cg_iterations);
+  }
+  for (std::size_t i = 1; i < iterations.size(); ++i) EXPECT_LT(iterations[i], iterations[i - 1]) << "preconditioner " << i;
 }
 
 // lambda = 0 is NSCDD, bit for bit, and builds no matrix.

@@ -211,6 +211,22 @@ TEST(NormalLaws, FeedbackUndoesInterpenetrationDownToTheSlop) {
   }
 }
 
+// Where nothing loads the bodies, the speeds of recovery are the scale of nat_max: a column is not solved by its first sweep.
+TEST(NormalLaws, RecoveryIsAScaleWithoutLoads) {
+  NscdOptions nscd = Exact();
+  nscd.stopping.criterion = Criterion::kNatMax;
+  nscd.stopping.tolerance = 1e-10;
+  Host host({.normal_law = NormalLaw::kFeedback, .feedback_beta = 0.1}, nscd);
+  host.AddFloor(0);
+  for (int i = 0; i < 6; ++i) host.AddDisk(1 + i, {0.0, 0.48 + 0.96 * i}, 0.5);
+  const StepReport& report = host.Step(kDt);
+  EXPECT_EQ(report.solve.status, SolveStatus::kConverged);
+  EXPECT_GT(report.solve.iterations, 1);
+  for (int i = 0; i < 6; ++i) {  // 0.02 from the floor, 0.04 from each other
+    EXPECT_NEAR(host.body(1 + i).velocity.vy, 0.1 * (0.02 + 0.04 * i) / kDt, 1e-8) << "disk " << i;
+  }
+}
+
 // Injected energy counts what feedback gives, not what a bounce gives back.
 TEST(NormalLaws, ReboundIsNoInjectedEnergy) {
   Host host({.normal_law = NormalLaw::kFeedback}, Exact());

@@ -36,6 +36,15 @@ TEST(Grid, PeriodWraps) {
   EXPECT_EQ(grid.Wrap(9.0), 1.0);
 }
 
+// Cells cover the period in equal parts, wherever the bodies are.
+TEST(Grid, PeriodIsCutEvenly) {
+  Grid grid({2.0, 0.0}, {4.0, 1.0}, 4, 1);
+  grid.SetPeriod(1.0, 10.0);
+  for (const double x : {1.0, 3.4, 3.6, 5.9, 6.1, 8.4, 8.6, 10.9}) {
+    EXPECT_EQ(grid.CellOf({x, 0.5}), static_cast<int>((x - 1.0) / 2.5)) << x;
+  }
+}
+
 // The cells near a point hold every point within the reach.
 TEST(Grid, CellsNearAPointAreComplete) {
   for (const bool periodic : {false, true}) {

@@ -7,6 +7,8 @@
 
 #include "host.h"
 #include "packing.h"
+#include "problem/initial_state.h"
+#include "sample_problem.h"
 
 namespace nscdd {
 namespace {
@@ -113,6 +115,36 @@ TEST(Periodic, SlideThroughManyPeriods) {
   EXPECT_GT(floor.body(1).pose.x, 2 * 4.0);
   EXPECT_NEAR(strip.body(1).pose.x, std::fmod(floor.body(1).pose.x, 4.0), 1e-12);
   EXPECT_NEAR(strip.body(1).velocity.vx, floor.body(1).velocity.vx, 1e-12);
+}
+
+// Friction that has fallen since the last step: the warm start begins on the new cone.
+TEST(WarmStart, BeginsInsideTheCones) {
+  const ContactProblem p = test::SampleProblem({.friction = 0.2});
+  const test::Sample sample(p);
+  const std::vector<Vec2> warm(p.contacts.size(), {1.0, -0.5});
+  const std::vector<double> r = InitialState(sample.problem, warm).subdomains.front().impulse;
+  for (std::size_t i = 0; i < r.size(); i += 2) {
+    EXPECT_EQ(r[i], 1.0);
+    EXPECT_EQ(r[i + 1], -0.2);
+  }
+}
+
+// A dumb-bell that turns hits a floor with one end: that end leaves with e times the speed it came with.
+TEST(Clusters, TurningEndRebounds) {
+  for (const std::int64_t floor : {0, 2}) {
+    Host host({.theta = 1.0}, Exact());  // contacts are detected where the bodies are
+    host.AddFloor(floor);
+    const double angle = -0.1;
+    const reference::Disk ends[2] = {{{-1.0, 0.0}, 0.5}, {{1.0, 0.0}, 0.5}};
+    reference::Body bell = reference::MakeCluster(1, ends, 1000.0);
+    bell.restitution = 0.5;
+    bell.pose = {0.0, 0.5 - std::sin(angle) - 1e-6, angle};
+    bell.velocity.spin = -1.0;
+    host.world.Add(bell);
+    host.Step(kDt);
+    ASSERT_EQ(host.stepper().contacts().size(), 1u);
+    EXPECT_NEAR(host.stepper().contacts()[0].relative_velocity.x, 0.5 * std::cos(angle), 1e-12) << "floor " << floor;
+  }
 }
 
 // A dumb-bell falls on one end (W_nt != 0), then lies on both.

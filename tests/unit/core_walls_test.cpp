@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "host.h"
 
@@ -93,6 +94,42 @@ TEST(TurningWall, WheelDrivesByFriction) {
   EXPECT_NEAR(disk.velocity.vx, -0.6 * 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(disk.velocity.spin * 0.5, -2.0 * 0.6 * 2.0 / 3.0, 1e-12);
   EXPECT_EQ(report.solve.sticking, 1);
+}
+
+// The same wheel as body A and as body B of its contact.
+TEST(TurningWall, WheelDrivesAlikeFromBothSidesOfTheContact) {
+  std::vector<Twist> velocities;
+  for (const std::int64_t id : {0, 2}) {
+    Host host({}, Exact());
+    host.world.gravity = {0.0, -kG};
+    reference::Body wheel = reference::MakeWall(id);
+    wheel.disks.push_back({{}, 2.0});
+    wheel.friction = 1000.0;
+    wheel.velocity.spin = 0.6;
+    host.world.Add(wheel);
+    host.AddDisk(1, {0.0, 2.5}, 0.5, 1000.0);
+    host.Step(kDt);
+    velocities.push_back(host.body(1).velocity);
+  }
+  EXPECT_LT(velocities[0].vx, -0.1);
+  EXPECT_NEAR(velocities[1].vx, velocities[0].vx, 1e-13);
+  EXPECT_NEAR(velocities[1].spin, velocities[0].spin, 1e-13);
+}
+
+// The gap at the end of the step is that to the wall where it then is, whatever the disk's own turn.
+TEST(TurningWall, FinalGapIsThatOfTheTurnedWall) {
+  for (const std::int64_t id : {0, 2}) {
+    Host host({.alert_distance = 0.5}, Exact());
+    AddSegment(&host, id, 5.0, 0.0).velocity.spin = 0.8;
+    const reference::Body& disk = host.AddDisk(1, {3.0, 0.7}, 0.5);
+    host.body(1).velocity = {0.0, 4.0, 30.0};
+    host.Step(kDt);
+    const double angle = kDt * 0.8;
+    ASSERT_EQ(host.stepper().contacts().size(), 1u);
+    EXPECT_EQ(host.stepper().contacts()[0].impulse.x, 0.0);
+    const double height = Dot(Vec2{-std::sin(angle), std::cos(angle)}, Centre(disk.pose));
+    EXPECT_NEAR(host.stepper().contacts()[0].final_gap, height - 0.5, 1e-13) << "wall " << id;
+  }
 }
 
 // Off-centre disks of a turning wall: the velocity of the touching point, with the arm of the member disk.
