@@ -10,9 +10,9 @@ namespace nscdd::box2d {
 
 /// The floats of a b2Body that have a double-precision master here; what differs from last time was edited by the user.
 struct HostMirror {
-  b2Vec2 position;      // of the body's origin
-  b2Vec2 local_centre;  // centre of mass in the body's own frame
-  b2Vec2 velocity;
+  b2Vec2 position{0.0f, 0.0f};      // of the body's origin
+  b2Vec2 local_centre{0.0f, 0.0f};  // centre of mass in the body's own frame
+  b2Vec2 velocity{0.0f, 0.0f};
   float angle = 0.0f;
   float spin = 0.0f;
   float mass = 0.0f;
