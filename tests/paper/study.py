@@ -58,7 +58,7 @@ def make_report(program, out, quick, parts):
                               ("correction", "Correction of interpenetration in IEA", tables.correction),
                               ("cost", "Cost of an interface update", tables.cost)):
         if name in parts:
-            yield title, make(program, quick)
+            yield title, make.__doc__ + "\n\n" + make(program, quick).lstrip("\n")
 
 
 def main():

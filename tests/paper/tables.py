@@ -49,7 +49,7 @@ def preconditioners(program, quick):
 
 
 def stability(program, quick):
-    """How one cold step ends, over lambda and grid: FEA with 5 sweeps per stage plain, then accelerated and guarded; IEA's residual."""
+    """Status, updates and nat of one cold step: FEA with 5 sweeps per stage, plain; accelerated and guarded (default); nat of IEA."""
     lambdas = [0, 10, 1e4, 1e8] if quick else [0, 1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8]
     text = ""
     for mu, scene in SCENES.items():
@@ -84,7 +84,7 @@ def correction(program, quick):
 
 
 def cost(program, quick):
-    """Milliseconds of a sweep with its test, and of an interface update, solved only and factorised anew."""
+    """A sweep of all contacts; a mean update in a step of FEA, and how many of 299 factorised anew; the one update of a step of IEA."""
     rows = []
     for scene, grid in ((SAMPLE, "1x2"),) if quick else ((SAMPLE, "1x2"), (SAMPLE, "4x4"), ("box_10k", "4x4")):
         steps = 1
