@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs scenes for very many steps: interpenetration, energy, speed and memory must stay bounded, and no step may diverge.
 
-    tests/long/long_runs.py [--steps 100000] [--scenes NAME ...] [--slope 0.33] [--out tests/long] [-- --tolerance 1e-4 ...]
+    tests/long/long_runs.py [--steps 100000] [--scenes NAME ...] [--slope 0.33] [--out results/long] [-- --tolerance 1e-4 ...]
     tests/long/long_runs.py --energy [--steps 100000]
 
 What stands behind `--` goes to `nscdd run`; without it each scene is solved as its file says. Writes NAME.csv (500 rows),
@@ -49,7 +49,8 @@ def main():
     parser.add_argument("--steps", type=int, default=100000)
     parser.add_argument("--scenes", nargs="+", choices=ALL, default=list(ALL))
     parser.add_argument("--slope", type=float, default=SLOPE, help=f"of sloped_flow_750 [rad]; {SLOPE}, in the file pi/6")
-    parser.add_argument("--out", type=pathlib.Path, default=SOURCE / "tests/long", help="folder of digests and picture")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/long"),
+                        help="folder of digests and picture")
     parser.add_argument("--build", type=pathlib.Path, default=SOURCE / "build/release/bin", help="folder of the programs")
     parser.add_argument("--energy", action="store_true", help="the balance of energy instead")
     parser.add_argument("settings", nargs="*", help="of nscdd run, behind --")

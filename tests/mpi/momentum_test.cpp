@@ -9,9 +9,9 @@
 #include <map>
 #include <vector>
 
-#include "nscdd/mpi_communicator.h"
 #include "nscdd/reference/reference_adapter.h"
 #include "packing.h"
+#include "rank_part.h"
 
 namespace nscdd::test {
 namespace {
@@ -105,21 +105,15 @@ double LargestDefect(const Packing& packing, const AlgorithmOptions& options, Co
 /// Number of failures, the same on all ranks.
 int Check(const Named& solver, int ranks, int rank) {
   int failures = 0;
-  MPI_Comm part;
-  MPI_Comm_split(MPI_COMM_WORLD, rank < ranks ? 0 : MPI_UNDEFINED, rank, &part);
-  if (part != MPI_COMM_NULL) {
-    {
-      MpiCommunicator communicator(part);
-      double largest = 0.0;
-      for (const Packing& packing : {Packing{}, Packing{.clusters = true}, Packing{.restitution = 0.5, .turning_wall = true},
-                                     Packing{.periodic = true}, Packing{.friction = 0.0}}) {
-        largest = std::max(largest, LargestDefect(packing, solver.options, &communicator));
-      }
-      failures = !(largest < kTolerance);
-      if (rank == 0) fmt::print("{} {} on {} ranks: {:.1e}\n", failures ? "FAILED" : "ok    ", solver.name, ranks, largest);
+  OnFirstRanks(ranks, [&](Communicator* communicator) {
+    double largest = 0.0;
+    for (const Packing& packing : {Packing{}, Packing{.clusters = true}, Packing{.restitution = 0.5, .turning_wall = true},
+                                   Packing{.periodic = true}, Packing{.friction = 0.0}}) {
+      largest = std::max(largest, LargestDefect(packing, solver.options, communicator));
     }
-    MPI_Comm_free(&part);
-  }
+    failures = !(largest < kTolerance);
+    if (rank == 0) fmt::print("{} {} on {} ranks: {:.1e}\n", failures ? "FAILED" : "ok    ", solver.name, ranks, largest);
+  });
   MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
   return failures;
 }

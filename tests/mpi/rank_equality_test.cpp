@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "nscdd/mpi_communicator.h"
 #include "packing.h"
+#include "rank_part.h"
 
 namespace nscdd::test {
 namespace {
@@ -56,23 +56,17 @@ int Check(const Case& c, int rank) {
   std::optional<Outcome> expected;
   if (rank == 0) expected = Run(c.packing, c.stepping, c.nscdd, kSteps, &serial);
   for (int ranks = 1; ranks <= 4; ++ranks) {
-    MPI_Comm part;
-    MPI_Comm_split(MPI_COMM_WORLD, rank < ranks ? 0 : MPI_UNDEFINED, rank, &part);
-    if (part == MPI_COMM_NULL) continue;
-    {
-      MpiCommunicator communicator(part);
-      const Outcome outcome = Run(c.packing, c.stepping, c.nscdd, kSteps, &communicator);
-      if (rank == 0) {
-        const std::string difference = Difference(*expected, outcome);
-        std::int64_t migrated = 0, active = 0;
-        for (const StepReport& r : outcome.reports) migrated += r.migrated_bodies;
-        active = outcome.reports.back().solve.active;
-        fmt::print("{} {} on {} ranks: {} active contacts at the end, {} bodies moved between ranks {}\n",
-                   difference.empty() ? "ok    " : "FAILED", c.name, ranks, active, migrated, difference);
-        failures += !difference.empty() || active == 0;
-      }
-    }
-    MPI_Comm_free(&part);
+    OnFirstRanks(ranks, [&](Communicator* communicator) {
+      const Outcome outcome = Run(c.packing, c.stepping, c.nscdd, kSteps, communicator);
+      if (rank != 0) return;
+      const std::string difference = Difference(*expected, outcome);
+      const std::int64_t active = outcome.reports.back().solve.active;
+      std::int64_t migrated = 0;
+      for (const StepReport& r : outcome.reports) migrated += r.migrated_bodies;
+      fmt::print("{} {} on {} ranks: {} active contacts at the end, {} bodies moved between ranks {}\n",
+                 difference.empty() ? "ok    " : "FAILED", c.name, ranks, active, migrated, difference);
+      failures += !difference.empty() || active == 0;
+    });
   }
   MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
   return failures;

@@ -18,6 +18,9 @@ import tempfile
 from interrupted import Process, checkpoints, differences, rows_done
 from program import SCENES, nscdd
 
+# Also as root, and with more ranks than cores.
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
+
 SCENE = SCENES / "rotating_box_730.toml"
 OPTIONS = ["--solver", "fea", "--subdomains", "2x4", "--steps", 40, "--save-every", 3, "--option", "repartition_every=5"]
 EVERY = (1, 2, 5)  # steps between checkpoints, drawn for each run

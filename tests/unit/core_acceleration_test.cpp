@@ -156,7 +156,8 @@ TEST(Acceleration, ReturnsTheBestTestedState) {
   }
 }
 
-// One sweep a stage cannot undo what a large lambda does without friction: the plain updates of the guard make it converge.
+// One sweep a stage cannot undo what a large lambda does without friction. By default every lambda converges all the same, mostly by
+// the restarts of the acceleration; the next test is the one that needs the guard.
 TEST(JumpGuard, LetsEveryLambdaConverge) {
   const ContactProblem p = SampleProblem({.friction = 0.0, .subdomains = 6});
   const ContactSolution nscdd = SolveContactProblem(p, NscddOptions{To(1e-9), {}, 1, {}});

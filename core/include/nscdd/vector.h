@@ -16,6 +16,7 @@ constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
 constexpr double Dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 /// a x b, the out-of-plane component; positive when b is counter-clockwise of a.
 constexpr double Cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+/// Of lengths and speeds, whose squares neither overflow nor vanish: no std::hypot.
 inline double Norm(Vec2 a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 /// `a` turned counter-clockwise by `angle` [rad].
 inline Vec2 Rotate(double angle, Vec2 a) {

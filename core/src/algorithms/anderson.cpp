@@ -10,15 +10,20 @@
 namespace nscdd {
 namespace {
 
-/// Four partial sums, in an order that is the same on every machine.
-double Dot(const double* a, const double* b, std::size_t n) {
+/// sum term(k), k < n, by four partial sums in an order that is the same on every machine.
+template <class Term>
+double Sum(std::size_t n, Term term) {
   double s[4] = {};
   std::size_t k = 0;
   for (; k + 4 <= n; k += 4) {
-    for (int i = 0; i < 4; ++i) s[i] += a[k + i] * b[k + i];
+    for (int i = 0; i < 4; ++i) s[i] += term(k + i);
   }
-  for (; k < n; ++k) s[0] += a[k] * b[k];
+  for (; k < n; ++k) s[0] += term(k);
   return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
+double Dot(const double* a, const double* b, std::size_t n) {
+  return Sum(n, [=](std::size_t k) { return a[k] * b[k]; });
 }
 
 /// f := g - s and df := f - (f before), weighted := weight df; the vectors do not overlap.
@@ -33,15 +38,8 @@ void Subtract(std::size_t n, const double* __restrict g, const double* __restric
   }
 }
 
-/// sum weight f^2, as Dot().
 double WeightedNorm2(const double* weight, const double* f, std::size_t n) {
-  double s[4] = {};
-  std::size_t k = 0;
-  for (; k + 4 <= n; k += 4) {
-    for (int i = 0; i < 4; ++i) s[i] += weight[k + i] * f[k + i] * f[k + i];
-  }
-  for (; k < n; ++k) s[0] += weight[k] * f[k] * f[k];
-  return (s[0] + s[1]) + (s[2] + s[3]);
+  return Sum(n, [=](std::size_t k) { return weight[k] * f[k] * f[k]; });
 }
 
 template <class Row>

@@ -217,10 +217,9 @@ void TimeStepper::Impl::SelectContacts() {
   chosen_.resize(local_subdomains_);
   for (auto& list : chosen_) list.clear();
   solved_.clear();
-  const bool one = grid_.cells() == 1;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (stepping_.normal_law == NormalLaw::kStrict && contacts_.gap[c] > 0.0) continue;
-    const int e = one ? 0 : grid_.CellOf(contacts_.site[c]) - first_subdomain_;
+    const int e = grid_.CellOf(contacts_.site[c]) - first_subdomain_;
     if (e < 0 || e >= local_subdomains_) continue;
     chosen_[e].push_back(static_cast<std::int32_t>(c));
     solved_.push_back(static_cast<std::int32_t>(c));
