@@ -195,7 +195,12 @@ void ReloadState(const nscdd_plugin& plugin, nscdd_solver* solver, ByteSource* i
   if (plugin.state_size(solver, &size) != NSCDD_OK) return;
   std::vector<std::uint8_t> bytes(size);
   CheckResult(plugin, solver, plugin.save_state(solver, bytes.data(), size));
-  if (in->Rarely()) bytes.resize(size - std::min<std::uint64_t>(size, in->Byte()));
+  const std::uint8_t harm = in->Byte() % 16;
+  if (harm == 15) bytes.resize(size - std::min<std::uint64_t>(size, in->Byte()));
+  if (harm >= 8 && harm < 15) {
+    const std::uint64_t at = in->Word() % size;
+    bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ in->Byte());
+  }
   CheckResult(plugin, solver, plugin.load_state(solver, bytes.data(), bytes.size()));
 }
 

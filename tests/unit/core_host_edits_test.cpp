@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -81,6 +82,12 @@ TEST(HostErrors, NameTheBodyAndLeaveTheHostAlone) {
   for (const double dt : {0.0, -0.01, std::numeric_limits<double>::infinity(), std::nan("")}) {
     ExpectContains(Refusal([&] { host.Step(dt); }), "time step");
   }
+  const double mass = host.body(7).mass;
+  host.body(7).mass = 1e-10;
+  host.body(7).force.fy = -1e308;
+  ExpectContains(Refusal([&] { host.Step(kDt); }), "body 7 that is not finite");
+  host.body(7).mass = mass;
+  host.body(7).force = {};
   host.Step(5, kDt);
   const StepReport& report = twin.Step(5, kDt);
   EXPECT_EQ(report.step, 10);
@@ -187,6 +194,10 @@ TEST(Continuation, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   std::vector<std::byte> longer = saved;
   longer.push_back(std::byte{0});
   EXPECT_NE(refused(longer), "");
+  const double not_finite = std::numeric_limits<double>::infinity();
+  std::vector<std::byte> damaged = saved;
+  std::memcpy(&damaged[damaged.size() - sizeof not_finite], &not_finite, sizeof not_finite);
+  ExpectContains(refused(damaged), "an impulse in it is not finite");
   ExpectContains(refused(other.stepper().SaveState()), "3x3");
   const std::span<const std::byte> part(saved);
   const std::array twice{part, part};

@@ -125,7 +125,8 @@ void AverageCopies(std::vector<CopyRecord>* copies, const Population& population
 void Reconcile(const PartitionedProblem& problem, const PartitionedState& state, const Distribution& distribution,
                const Sharing& sharing, const std::vector<std::int32_t>& solved, const std::vector<Vec2>& impulse,
                Communicator* communicator, std::vector<Twist>* velocity, ImpulseCache* cache) {
-  *cache = {};
+  cache->contacts.clear();
+  cache->interfaces.clear();
   std::vector<CopyRecord> copies = CopiesOf(problem, state, distribution, sharing);
   AddInterfaceImpulses(problem, state, cache);
   AddContactImpulses(*problem.contacts, distribution.population().bodies, solved, impulse, cache);

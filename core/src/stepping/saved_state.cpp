@@ -16,6 +16,7 @@ namespace nscdd {
 namespace {
 
 constexpr std::uint64_t kMark = 0x325453444453434e;  // "NCSDDST2": these bytes are a saved state of this layout
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 62;
 
 /// The beginning of every part: equal bytes in all parts of one moment.
 struct Head {
@@ -88,9 +89,19 @@ void CheckHead(const Head& head, int nx, int ny) {
                       head.nx, head.ny, nx, ny));
   const StepperState& s = head.state;
   const bool is_cut = s.grid.nx() == nx && s.grid.ny() == ny;
-  Require(head.ranks > 0 && s.step >= 0 && std::isfinite(s.time) && std::isfinite(s.alert) && std::isfinite(s.cached_dt) &&
-              s.cached_dt >= 0.0 && (is_cut || s.step == 0),
+  Require(head.ranks > 0 && s.step >= 0 && s.step < kMostSteps && std::isfinite(s.time) && std::isfinite(s.alert) &&
+              std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && (is_cut || s.step == 0),
           "the saved state is damaged: its counters make no sense; take another one");
+}
+
+void CheckImpulses(const ImpulseCache& cache) {
+  const auto is_damaged = [](const auto& entries, auto sum_of) {
+    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return !std::isfinite(sum_of(entry)); });
+  };
+  Require(
+      !is_damaged(cache.contacts, [](const CachedImpulse& e) { return e.impulse.x + e.impulse.y; }) &&
+          !is_damaged(cache.interfaces, [](const CachedInterfaceImpulse& e) { return e.force[0] + e.force[1] + e.force[2]; }),
+      "the saved state is damaged: an impulse in it is not finite; take another one");
 }
 
 /// The head and the rank of one part.
@@ -101,6 +112,7 @@ std::pair<Head, std::int64_t> ReadPart(std::span<const std::byte> bytes, int nx,
   const auto rank = in.Get<std::int64_t>();
   GetImpulses(&in, cache);
   Require(in.empty(), "the saved state is longer than it says it is");
+  CheckImpulses(*cache);
   return {head, rank};
 }
 

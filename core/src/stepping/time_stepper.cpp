@@ -75,6 +75,7 @@ class TimeStepper::Impl {
     SolveProblem(dt);
     report_.seconds_solve = SecondsSince(solving) - (communicator_->counters().seconds - waited);
     Advance(dt);
+    std::swap(cache_, next_cache_);
     ++step_;
     time_ += dt;
     report_.step = step_;
@@ -143,6 +144,7 @@ class TimeStepper::Impl {
   std::vector<double> inverse_mass_, inverse_inertia_, offset_, approach_;
   std::vector<Twist> free_velocity_, velocity_;    // by row; velocity_ of rows that only others own is their local copy's
   std::vector<Vec2> impulse_, relative_velocity_;  // by row of contacts_
+  ImpulseCache next_cache_;                        // becomes cache_ once the step has succeeded
   Sharing sharing_;
   PartitionedProblem problem_;
   StepReport report_;
@@ -352,8 +354,8 @@ void TimeStepper::Impl::SolveProblem(double dt) {
     StoreImpulses(problem_.subdomains[e], state.subdomains[e], &impulse_, &relative_velocity_);
     StoreVelocities(problem_.subdomains[e], state.subdomains[e], inverse_mass_, &velocity_);
   }
-  Reconcile(problem_, state, distribution_, sharing_, solved_, impulse_, communicator_, &velocity_, &cache_);
-  cache_.dt = dt;
+  Reconcile(problem_, state, distribution_, sharing_, solved_, impulse_, communicator_, &velocity_, &next_cache_);
+  next_cache_.dt = dt;
 }
 
 // 9 move, 10 commit, 11 report.
