@@ -10,6 +10,8 @@ import rules
 SOURCES = {".h", ".cpp", ".c"}
 TEXTS = SOURCES | {".txt", ".cmake", ".in", ".md", ".map", ".py", ".sh"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+NAMESPACE = re.compile(r"^namespace(?: ([\w:]+))? \{$")
+TYPE = re.compile(r"^(?:struct|class|enum(?: class)?) ([\w:]+)[^;{]*(?:\{|$)")
 
 
 def part_of(path):
@@ -75,6 +77,27 @@ def check_includes(root):
                 yield f'{where}:{number} includes <{match[2]}>: write "..." for our own headers.'
 
 
+def types(path):
+    """(line, qualified name) of the types defined in the namespaces of a file, but not those of one file alone."""
+    inside = []
+    for number, line in lines(path):
+        if match := NAMESPACE.match(line):
+            inside.append(match[1] or "")
+        elif line.startswith("}  // namespace"):
+            inside.pop()
+        elif (match := TYPE.match(line)) and inside and "" not in inside:
+            yield number, "::".join([*inside, match[1]])
+
+
+def check_types(root):
+    """Two types of one name in one program share constructors and destructors, by whichever the linker meets first."""
+    first = {}
+    for path, where in files(root, {".h", ".cpp"}):
+        for number, name in types(path):
+            if first.setdefault(name, where) != where:
+                yield f"{where}:{number} defines {name}, as {first[name]} does: one type, one name."
+
+
 def check_text(root):
     for path, where in files(root, TEXTS):
         for pattern, places, exceptions, why in rules.FORBIDDEN_TEXT:
@@ -106,4 +129,4 @@ def check_plugin_symbols(plugin):
 
 def check_tree(root):
     root = pathlib.Path(root)
-    return [*check_includes(root), *check_text(root), *check_top_level(root)]
+    return [*check_includes(root), *check_types(root), *check_text(root), *check_top_level(root)]

@@ -10,11 +10,13 @@ import rules
 import structure
 
 SOUND = {
-    "core/include/nscdd/body_table.h": "#pragma once\n#include <vector>\n",
+    "core/include/nscdd/body_table.h": "#pragma once\n#include <vector>\nnamespace nscdd {\nstruct BodyTable;\nstruct BodyTable {\n"
+                                       "};\n}  // namespace nscdd\n",
     "core/include/nscdd/time_stepper.h": '#include "nscdd/body_table.h"\n',
     "core/include/nscdd/mpi_communicator.h": "#include <mpi.h>\n",
     "core/src/nlgs/sweep.h": '#include "nscdd/body_table.h"\n',
-    "core/src/nlgs/sweep.cpp": '#include "nlgs/sweep.h"\n#include <Eigen/Core>\n',
+    "core/src/nlgs/sweep.cpp": '#include "nlgs/sweep.h"\n#include <Eigen/Core>\nnamespace nscdd {\nnamespace {\nclass BodyTable {};\n'
+                               "}  // namespace\nclass BodyTable::Row {\n};\n}  // namespace nscdd\n",
     "core/src/parallel/mpi_communicator.cpp": '#include "nscdd/mpi_communicator.h"\n#include <mpi.h>\n',
     "adapters/box2d/src/store.cpp": '#include <box2d/box2d.h>\n#include "nscdd/body_table.h"\n',
     "adapters/callback/callback.cpp": '#include "nscdd_plugin.h"\n#include "nscdd/body_table.h"\n',
@@ -36,6 +38,7 @@ SPOILED = [
     ("core/src/nlgs/sweep.cpp", 'std::cout << "here";', "prints nothing"),
     ("plugin/runner/main.cpp", "std::thread helper(Work);", "processes share nothing"),
     ("core/src/nlgs/sweep.cpp", '#include "nlgs/lost.h"', "in no part of the project"),
+    ("plugin/runner/main.cpp", "namespace nscdd {\nstruct BodyTable final {};\n}  // namespace nscdd", "one type, one name"),
     ("core/src/parallel/mpi_communicator.cpp", "auto world = MPI_COMM_WORLD;", "does not own MPI"),
     ("core/include/nscdd/body_table.h", '#include "nlgs/sweep.h"', "not core inside"),
     ("core/include/nscdd/body_table.h", "#include <Eigen/Core>", "stays inside the core"),

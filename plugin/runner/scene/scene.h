@@ -93,7 +93,7 @@ struct AutoSettings {
 
 enum class OnNonconvergence { kContinue, kStop };
 
-struct SolverSettings {
+struct SceneSolver {
   std::string name = "nscd";
   int line = 0;  ///< of the name, or of the file's first line
   std::vector<SolverOption> options;
@@ -119,7 +119,7 @@ struct Scene {
   std::optional<Periodicity> periodic;
   std::vector<Material> materials;  ///< never empty; the first is the default
   std::vector<BodySource> bodies;   ///< walls first
-  SolverSettings solver;
+  SceneSolver solver;
   OutputSettings output;
 };
 

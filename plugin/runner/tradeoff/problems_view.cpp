@@ -24,7 +24,7 @@ class ProblemSolver {
         solver_(plan.registry->Create({setting.solver, plan.Complete(setting).options, nullptr, {}})),
         fixed_(setting.Option("tolerance") == "0") {}
 
-  Outcome Solve(const RecordedStep& step) {
+  Outcome Solve(const ReferenceStep& step) {
     const double start = ProcessSeconds();
     ContactSolution solution = solver_.Solve(step.problem.problem, cold_ ? std::vector<Vec2>{} : step.warm);
     const double around = ProcessSeconds() - start;  // copies included, waiting for the processor not
@@ -61,7 +61,7 @@ TradeoffRow ProblemsView::Measure(const Setting& setting, Timings* timings, cons
   try {
     const AdapterDescription platform = geometry_->adapter().Describe();
     ProblemSolver solver(plan_, setting, platform);
-    for (const RecordedStep& step : reference_.steps) {
+    for (const ReferenceStep& step : reference_.steps) {
       if (&step != &reference_.steps.front() && (cut = stop())) break;
       const Outcome outcome = solver.Solve(step);
       timings->Add(outcome.seconds);
@@ -83,7 +83,7 @@ TradeoffRow ProblemsView::Measure(const Setting& setting, Timings* timings, cons
 void ProblemsView::Time(const Setting& setting, Timings* timings, const StopQuestion& stop) {
   ProblemSolver solver(plan_, setting, geometry_->adapter().Describe());
   timings->Begin();
-  for (const RecordedStep& step : reference_.steps) {
+  for (const ReferenceStep& step : reference_.steps) {
     if (stop()) return timings->DropLast();
     timings->Add(solver.Solve(step).seconds);
   }

@@ -8,7 +8,7 @@
 namespace nscdd {
 
 /// A step of the reference trajectory whose problem the settings solve too.
-struct RecordedStep {
+struct ReferenceStep {
   std::int64_t step = 0;
   StepProblem problem;
   std::vector<Vec2> warm;  ///< impulses of the reference's step before, by row of the contacts
@@ -18,8 +18,8 @@ struct RecordedStep {
 
 /// The scene's first steps, solved as exactly as the plugin can, and what they are compared with.
 struct ReferenceRun {
-  Setting setting;                  ///< that was used
-  std::vector<RecordedStep> steps;  ///< recorded ones
+  Setting setting;                   ///< that was used
+  std::vector<ReferenceStep> steps;  ///< recorded ones
   std::vector<double> observable;   ///< at the end of every step
   std::vector<double> nat;          ///< of every step, as measured here
   std::vector<double> nat_max;
