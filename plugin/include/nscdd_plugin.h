@@ -15,7 +15,8 @@
  *   - No exception, longjmp or C++ object crosses. A function that can fail returns NSCDD_OK or another nscdd_result; the
  *     sentence is then at last_error() of the side that failed.
  *   - A solver handle is used by one thread at a time. Several handles may coexist in a process.
- *   - With several ranks, create, destroy, step, solve and the state functions are collective over the communicator.
+ *   - With several ranks, create, destroy, step, solve and the state functions are collective over the communicator. All ranks
+ *     create the same solver with the same options and step by the same dt; what differs is refused on all of them.
  */
 #ifndef NSCDD_PLUGIN_H_
 #define NSCDD_PLUGIN_H_

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -110,24 +109,11 @@ std::int32_t SaveState(nscdd_solver* solver, void* bytes, std::uint64_t size) {
 }
 
 std::int32_t LoadState(nscdd_solver* solver, const void* bytes, std::uint64_t size) {
-  return WithHandle(solver, "load_state", [&](SolverHandle& handle) {
-    if (bytes == nullptr) throw BadCall("load_state: the pointer to the bytes is null");
-    handle.LoadState(bytes, size);
-  });
+  return WithHandle(solver, "load_state", [&](SolverHandle& handle) { handle.LoadState(bytes, size); });
 }
 
 std::int32_t LoadStates(nscdd_solver* solver, std::uint64_t count, const void* const* parts, const std::uint64_t* sizes) {
-  return WithHandle(solver, "load_states", [&](SolverHandle& handle) {
-    if (count > 0 && (parts == nullptr || sizes == nullptr)) {
-      throw BadCall("load_states: the pointer to the parts or their sizes is null");
-    }
-    std::vector<std::span<const std::byte>> given;
-    for (std::uint64_t i = 0; i < count; ++i) {
-      if (parts[i] == nullptr) throw BadCall(fmt::format("load_states: the pointer to part {} is null", i));
-      given.emplace_back(static_cast<const std::byte*>(parts[i]), static_cast<std::size_t>(sizes[i]));
-    }
-    handle.LoadStates(given);
-  });
+  return WithHandle(solver, "load_states", [&](SolverHandle& handle) { handle.LoadStates(count, parts, sizes); });
 }
 
 const char* LastError(nscdd_solver* solver) {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <span>
+#include <sstream>
 
 #include "guard.h"
 #include "nscdd/callback/abi_check.h"
@@ -64,6 +66,37 @@ PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
       algorithm);
 }
 
+/// What this rank asked for, a line each.
+std::string WishOf(const nscdd_create_arguments& arguments, const SolverSettings& settings, const CallbackAdapter* adapter) {
+  const SolverEntry& solver = FindSolver(arguments.solver);
+  std::string wish = fmt::format("solver = {}\n", solver.name);
+  if (adapter == nullptr) {
+    wish += "host = none\n";
+  } else {
+    const AdapterDescription d = adapter->Describe();
+    wish += fmt::format("host = '{}', period {} m from {} m, clusters {}, prescribed_motion {}\n", d.name, d.period,
+                        d.period_origin, d.clusters, d.prescribed_motion);
+  }
+  for (const Option& option : solver.options) wish += fmt::format("{} = {}\n", option.name, option.print(settings));
+  return wish;
+}
+
+/// Ranks that ask for different things would wait for each other for ever.
+void CheckSameEverywhere(const std::string& wish, Communicator* communicator) {
+  std::vector<std::byte> bytes;
+  for (const char c : wish) bytes.push_back(static_cast<std::byte>(c));
+  communicator->Broadcast(0, &bytes);
+  RunTogether(communicator, [&] {
+    std::istringstream mine(wish), first(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    for (std::string here, there; std::getline(mine, here);) {
+      std::getline(first, there);
+      if (here == there) continue;
+      throw Error(fmt::format("create: {} here, but {} on rank 0; give all ranks the same solver, options and kind of host",
+                              here, there));
+    }
+  });
+}
+
 }  // namespace
 
 SolverHandle::SolverHandle(const nscdd_create_arguments& arguments) : communicator_(MakeCommunicator(arguments)) {
@@ -71,6 +104,7 @@ SolverHandle::SolverHandle(const nscdd_create_arguments& arguments) : communicat
     settings_ = ReadSettings(arguments);
     if (arguments.host != nullptr) adapter_ = std::make_unique<CallbackAdapter>(arguments.host);
   });
+  if (communicator_->size() > 1) CheckSameEverywhere(WishOf(arguments, settings_, adapter_.get()), communicator_.get());
   if (adapter_ == nullptr) return;
   stepper_ = std::make_unique<TimeStepper>(settings_.stepping, settings_.algorithm, adapter_.get(), communicator_.get());
 }
@@ -83,11 +117,12 @@ TimeStepper& SolverHandle::stepper(const char* function) const {
 
 void SolverHandle::Step(double dt) {
   TimeStepper& stepper = this->stepper("step");
-  if (!std::isfinite(dt) || dt <= 0.0) throw Error(fmt::format("step: dt is {} s, must be finite and > 0", dt));
-  last_ = Last::kNothing;
+  const bool is_sound = std::isfinite(dt) && dt > 0.0;
+  if (is_sound) last_ = Last::kNothing;
   try {
-    report_ = stepper.Step(dt);
+    report_ = stepper.Step(dt);  // refuses dt on all ranks together
   } catch (const Error& e) {
+    if (!is_sound) throw;
     throw Failure(e.what());  // the arguments were fine: what failed is the host, the transport or the arithmetic
   }
   last_ = Last::kStep;
@@ -134,9 +169,26 @@ void SolverHandle::Table(std::string_view name, nscdd_table* table) {
 std::vector<std::byte> SolverHandle::SaveState() const { return stepper("save_state").SaveState(); }
 
 void SolverHandle::LoadState(const void* bytes, std::uint64_t size) {
-  stepper("load_state").LoadState({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
+  TimeStepper& stepper = this->stepper("load_state");
+  RunTogether(communicator_.get(), [&] {
+    if (bytes == nullptr) throw BadCall("load_state: the pointer to the bytes is null");
+  });
+  stepper.LoadState({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
 }
 
-void SolverHandle::LoadStates(std::span<const std::span<const std::byte>> parts) { stepper("load_states").LoadState(parts); }
+void SolverHandle::LoadStates(std::uint64_t count, const void* const* parts, const std::uint64_t* sizes) {
+  TimeStepper& stepper = this->stepper("load_states");
+  std::vector<std::span<const std::byte>> given;
+  RunTogether(communicator_.get(), [&] {
+    if (count > 0 && (parts == nullptr || sizes == nullptr)) {
+      throw BadCall("load_states: the pointer to the parts or their sizes is null");
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (parts[i] == nullptr) throw BadCall(fmt::format("load_states: the pointer to part {} is null", i));
+      given.emplace_back(static_cast<const std::byte*>(parts[i]), static_cast<std::size_t>(sizes[i]));
+    }
+  });
+  stepper.LoadState(given);
+}
 
 }  // namespace nscdd

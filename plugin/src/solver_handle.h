@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +29,7 @@ class SolverHandle {
   void Table(std::string_view name, nscdd_table* table);
   std::vector<std::byte> SaveState() const;
   void LoadState(const void* bytes, std::uint64_t size);
-  void LoadStates(std::span<const std::span<const std::byte>> parts);
+  void LoadStates(std::uint64_t count, const void* const* parts, const std::uint64_t* sizes);
 
  private:
   TimeStepper& stepper(const char* function) const;

@@ -223,6 +223,13 @@ int CheckFailures(Communicator* c) {
   }
   RankedHost host({}, options, c);
   host.Step(1);
+  const std::string odd = RefusalOf([&] { host.stepper->Step(c->rank() == 2 ? 0.02 : 0.01); });
+  failures +=
+      ReportCheck("time steps that differ", odd == "the ranks have time steps from 0.01 to 0.02 s; give all the same", c, odd);
+  const std::string bad = RefusalOf([&] { host.stepper->Step(c->rank() == 2 ? -1.0 : 0.01); });
+  failures += ReportCheck("a bad time step on one rank", bad.starts_with("rank 2: the time step is -1 s"), c, bad);
+  host.Step(7);
+  failures += ReportCheck("the run after bad time steps", Gather(host) == expected, c);
   if (c->rank() == 2) host.adapter->FailOnceIn(Fault::kCommit);
   const std::string refusal = RefusalOf([&] { host.Step(1); });
   failures += ReportCheck("failure of commit on one rank", refusal == "rank 2: the platform lost its mind", c, refusal);

@@ -103,7 +103,7 @@ class TimeStepper::Impl {
 
   void Distribute(double dt);
   double alert() const { return std::max(0.0, alert_); }
-  void PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers);
+  void PlaceCuts(const std::vector<Pose>& detection, double dt, double* largest_radius, bool* newcomers);
   void Detect();
   void SelectContacts();
   std::vector<std::pair<std::int32_t, std::int32_t>> TouchedBodies() const;
@@ -173,7 +173,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   Reach reach;
   reach.alert = alert();
   bool newcomers = false;
-  PlaceCuts(detection_, &reach.largest_radius, &newcomers);
+  PlaceCuts(detection_, dt, &reach.largest_radius, &newcomers);
   if (newcomers) distribution_.CheckIdsAreUnique();
   distribution_.Move(detection_, grid_, blocks_, reach, &cache_);
   is_cache_scattered_ = false;
@@ -187,10 +187,11 @@ void TimeStepper::Impl::Distribute(double dt) {
   sharing_ = distribution_.Share(std::move(pairs));
 }
 
-/// The grid covers the centres of the free bodies (minima and maxima are exact in any order).
-void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* largest_radius, bool* newcomers) {
+/// The grid covers the centres of the free bodies (minima and maxima are exact in any order). Also sees that `dt` is the same
+/// on all ranks.
+void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double dt, double* largest_radius, bool* newcomers) {
   const double infinity = std::numeric_limits<double>::infinity();
-  double box[6] = {infinity, infinity, infinity, infinity, 0.0, -static_cast<double>(distribution_.newcomers())};
+  double box[8] = {infinity, infinity, infinity, infinity, 0.0, -static_cast<double>(distribution_.newcomers()), dt, -dt};
   for (std::size_t i = 0; i < rows(); ++i) {
     box[4] = std::min(box[4], -bodies().radius[i]);
     if (!IsFree(i)) continue;
@@ -200,6 +201,8 @@ void TimeStepper::Impl::PlaceCuts(const std::vector<Pose>& detection, double* la
     box[3] = std::min(box[3], -detection[i].y);
   }
   communicator_->AllReduceMin(box);
+  if (box[6] != -box[7])
+    throw Error(fmt::format("the ranks have time steps from {} to {} s; give all the same", box[6], -box[7]));
   *largest_radius = -box[4];
   *newcomers = box[5] < 0.0;
   if (step_ % partition_.repartition_every != 0) return;
