@@ -80,7 +80,8 @@ typedef struct nscdd_contacts {
   const double* lever_b;
   const double* arm_a; /* 2 per contact [m]; both null when all arms are zero */
   const double* arm_b;
-  const double* site;         /* 2 per contact [m]: mid-point of the two disk centres, or the touched point of another wall */
+  const double* site;         /* 2 per contact [m]: mid-point of the two disk centres, or the touched point of another wall
+                               * (the disk's centre where that is deeper than its radius behind the wall) */
   const uint8_t* flat;        /* 1: one side is flat at the contact */
   const double* friction;     /* [-] >= 0 */
   const double* restitution;  /* [-] in [0, 1] */

@@ -197,6 +197,42 @@ int CheckWrongParts(Communicator* c) {
   return failures;
 }
 
+/// Sends the bodies over each other, so that they cross the cuts.
+void Stir(RankedHost* host) {
+  for (const BodyRecord& b : host->stepper->bodies()) host->world.Find(b.id)->velocity = {b.id % 2 == 0 ? 8.0 : -8.0, 4.0, 0.0};
+}
+
+// The transport fails again and again, on one rank after the other, while bodies and ghosts cross the cuts.
+int CheckFailuresOfTransport(Communicator* c) {
+  constexpr int kSteps = 40;
+  int failures = 0;
+  SerialCommunicator serial;
+  RankedHost whole({}, Strips(2, 3), &serial);
+  for (int k = 0; k < kSteps; ++k) {
+    if (k % 8 == 1) Stir(&whole);
+    whole.Step(1);
+  }
+  const auto expected = Gather(whole);
+  const std::pair<Fault, const char*> faults[] = {
+      {Fault::kPack, "pack"}, {Fault::kInsert, "insert"}, {Fault::kRemove, "remove"}};
+  for (const auto& [fault, name] : faults) {
+    RankedHost host({}, Strips(2, 3), c);
+    int refused = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      if (k % 8 == 1) Stir(&host);
+      const int culprit = k % c->size();
+      if (c->rank() == culprit) host.adapter->FailOnceIn(fault, k / 4 % 3);
+      const std::string refusal = RefusalOf([&] { host.Step(1); });
+      host.adapter->FailOnceIn(Fault::kNone);
+      if (refusal == fmt::format("rank {}: the platform lost its mind", culprit)) ++refused;
+      if (!refusal.empty()) host.Step(1);
+    }
+    failures += ReportCheck(fmt::format("{} failures of {}", refused, name), refused >= 2, c);
+    failures += ReportCheck(fmt::format("the run with failures of {}", name), Gather(host) == expected, c);
+  }
+  return failures;
+}
+
 // A failure on rank 2 is the same Error everywhere; once the cause is gone the run goes on as if nothing had been.
 int CheckFailures(Communicator* c) {
   int failures = 0;
@@ -221,6 +257,7 @@ int CheckFailures(Communicator* c) {
     failures += ReportCheck(fmt::format("failure of {} on one rank", name), refused == (fault == Fault::kPack ? 1 : 2), c);
     failures += ReportCheck(fmt::format("the run after a failure of {}", name), Gather(host) == expected, c);
   }
+  failures += CheckFailuresOfTransport(c);
   RankedHost host({}, options, c);
   host.Step(1);
   const std::string odd = RefusalOf([&] { host.stepper->Step(c->rank() == 2 ? 0.02 : 0.01); });

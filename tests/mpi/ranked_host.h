@@ -22,10 +22,14 @@ namespace nscdd::test {
 /// The reference adapter, which fails once when it is told to.
 class FaultyAdapter final : public PlatformAdapter {
  public:
-  enum class Fault { kNone, kRead, kPack, kDetect, kCommit };
+  enum class Fault { kNone, kRead, kPack, kInsert, kRemove, kDetect, kCommit };
 
   explicit FaultyAdapter(reference::World* world) : inner_(world), transport_(this) {}
-  void FailOnceIn(Fault fault) { fault_ = fault; }
+  /// After `calls` more calls that succeed.
+  void FailOnceIn(Fault fault, int calls = 0) {
+    fault_ = fault;
+    calls_ = calls;
+  }
 
   AdapterDescription Describe() const override { return inner_.Describe(); }
   void ReadBodies(BodyTable* bodies) override {
@@ -50,15 +54,21 @@ class FaultyAdapter final : public PlatformAdapter {
       owner_->FailIn(Fault::kPack);
       owner_->inner_.transport()->Pack(id, bytes);
     }
-    void Insert(std::int64_t id, std::span<const std::byte> bytes) override { owner_->inner_.transport()->Insert(id, bytes); }
-    void Remove(std::int64_t id) override { owner_->inner_.transport()->Remove(id); }
+    void Insert(std::int64_t id, std::span<const std::byte> bytes) override {
+      owner_->FailIn(Fault::kInsert);
+      owner_->inner_.transport()->Insert(id, bytes);
+    }
+    void Remove(std::int64_t id) override {
+      owner_->FailIn(Fault::kRemove);
+      owner_->inner_.transport()->Remove(id);
+    }
 
    private:
     FaultyAdapter* owner_;
   };
 
   void FailIn(Fault fault) {
-    if (fault_ != fault) return;
+    if (fault_ != fault || calls_-- > 0) return;
     fault_ = Fault::kNone;
     throw std::runtime_error("the platform lost its mind");
   }
@@ -66,6 +76,7 @@ class FaultyAdapter final : public PlatformAdapter {
   reference::ReferenceAdapter inner_;
   Transport transport_;
   Fault fault_ = Fault::kNone;
+  int calls_ = 0;
 };
 
 /// One rank of a run: its part of a packing. Body number k begins on rank k % ranks, so nearly all of them move at first.

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -194,9 +194,9 @@ TEST(Continuation, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   std::vector<std::byte> longer = saved;
   longer.push_back(std::byte{0});
   EXPECT_NE(refused(longer), "");
-  const double not_finite = std::numeric_limits<double>::infinity();
-  std::vector<std::byte> damaged = saved;
-  std::memcpy(&damaged[damaged.size() - sizeof not_finite], &not_finite, sizeof not_finite);
+  const auto not_finite = std::bit_cast<std::array<std::byte, 8>>(std::numeric_limits<double>::infinity());
+  std::vector<std::byte> damaged(saved.begin(), saved.end() - 8);  // the last number is an interface impulse
+  damaged.insert(damaged.end(), not_finite.begin(), not_finite.end());
   ExpectContains(refused(damaged), "an impulse in it is not finite");
   ExpectContains(refused(other.stepper().SaveState()), "3x3");
   const std::span<const std::byte> part(saved);

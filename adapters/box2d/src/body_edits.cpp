@@ -23,6 +23,12 @@ void BodyStore::RefreshBody(std::int32_t slot, Vec2 gravity) {
     StoreShapes(slot, DraftShapes(*r.body, scale_));
   } else {
     AdoptEdits(&r, false);
+    if (r.body->IsEnabled() != r.is_enabled || KindOf(*r.body) != r.kind) {
+      CheckFixtures(*r.body, r.id);
+      std::vector<ShapeDraft> drafts = DraftShapes(*r.body, scale_);
+      ApplyExact(ExactOf(slot).shapes, r.id, &drafts);
+      StoreShapes(slot, std::move(drafts));
+    }
   }
   CheckFinite(r);
   if (r.kind == BodyKind::kPrescribed) return;

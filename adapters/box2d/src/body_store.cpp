@@ -1,9 +1,13 @@
 #include "body_store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_set>
+
+#include "nscdd/error.h"
 
 namespace nscdd::box2d {
 
@@ -25,6 +29,8 @@ bool BodyStore::IsUnchanged() const {
 
 bool BodyStore::WalkWorld() {
   walk_.clear();
+  walked_count_ = world_->GetBodyCount();
+  walked_newest_ = world_->GetBodyList();
   for (b2Body* body = world_->GetBodyList(); body != nullptr; body = body->GetNext()) walk_.push_back(body);
   if (IsUnchanged()) return false;
   std::reverse(walk_.begin(), walk_.end());
@@ -79,6 +85,11 @@ void BodyStore::ForgetLost() {
 }
 
 std::int32_t BodyStore::NewSlot(b2Body* body, std::int64_t id) {
+  if (id == std::numeric_limits<std::int64_t>::max()) {
+    throw Error(
+        "A Box2D body cannot have the id 2^63 - 1: the adapter numbers further bodies from the largest id on; give smaller "
+        "ids.");
+  }
   auto slot = static_cast<std::int32_t>(records_.size());
   if (unused_slots_.empty()) {
     records_.emplace_back();
@@ -108,6 +119,10 @@ void BodyStore::Add(b2Body* body, std::int64_t id, const ExactBody& exact) {
   known.mass = exact.mass.value_or(known.mass);
   known.inertia = exact.inertia.value_or(known.inertia);
   CheckFinite(known);
+  const Twist& v = known.velocity;
+  if (body->GetType() == b2_staticBody && (v.vx != 0.0 || v.vy != 0.0 || v.spin != 0.0)) {
+    throw Error(fmt::format("Box2D body {} is static and cannot have a velocity: make it kinematic.", id));
+  }
 
   WriteMass(known.mass, known.inertia, scale_, body);
   WritePose(known.pose, scale_, body);
@@ -159,7 +174,7 @@ const std::vector<BodyStore::Row>& BodyStore::Rows() {
 void BodyStore::StoreShapes(std::int32_t slot, std::vector<ShapeDraft> drafts) {
   BodyRecord& r = record(slot);
   ReleaseShapes(&r);
-  r.kind = r.body->GetType() == b2_dynamicBody ? BodyKind::kFree : BodyKind::kPrescribed;
+  r.kind = KindOf(*r.body);
   r.is_enabled = r.body->IsEnabled();
   r.shape_count = static_cast<std::int32_t>(drafts.size());
   r.first_shape = AllocateShapes(r.shape_count);

@@ -49,6 +49,10 @@ class BodyStore {
   void Sync();
   /// The destroyed ones only: no body gets an id.
   void DropDestroyed();
+  /// The same where the world's list may have changed since it was walked last: another length, or another newest body.
+  void DropDestroyedIfAny() {
+    if (world_->GetBodyCount() != walked_count_ || world_->GetBodyList() != walked_newest_) DropDestroyed();
+  }
   /// Adopts the user's edits of all bodies and gathers their loads; `gravity` [m/s^2]. Throws Error on what is not modelled.
   void Refresh(Vec2 gravity);
   /// Registers a body under an id and writes what is known exactly into it. Throws Error, and then did nothing.
@@ -109,6 +113,8 @@ class BodyStore {
   std::int64_t next_id_ = 0;
 
   std::vector<b2Body*> walk_;           // scratch: the world's list
+  std::int32_t walked_count_ = 0;       // what DropDestroyedIfAny() compares with
+  const b2Body* walked_newest_ = nullptr;
   std::vector<Walked> order_;           // the world's list at the last Sync, oldest first
   std::vector<std::int32_t> unwalked_;  // slots that Add made since
   bool is_order_stale_ = false;

@@ -40,7 +40,8 @@ class Box2dAdapter::Impl final : public BodyTransport {
         store(world, options.metres_per_unit),
         finder(&store, options.period, options.period_origin) {}
 
-  std::int32_t SlotOf(std::int64_t id, const char* task) const {
+  std::int32_t SlotOf(std::int64_t id, const char* task) {
+    store.DropDestroyedIfAny();
     const std::int32_t slot = store.SlotOf(id);
     if (slot < 0) throw Error(fmt::format("{} names body {}, which the b2World does not hold.", task, id));
     return slot;
@@ -48,6 +49,12 @@ class Box2dAdapter::Impl final : public BodyTransport {
 
   void Pack(std::int64_t id, std::vector<std::byte>* bytes) override {
     const std::int32_t slot = SlotOf(id, "Pack");
+    if (store.record(slot).body->GetJointList() != nullptr) {
+      throw Error(
+          fmt::format("Body {} has a joint, which cannot go with it to another rank: start one rank, or filter the pair by "
+                      "groups (b2Filter::groupIndex).",
+                      id));
+    }
     AppendBytes(*store.record(slot).body, id, store.ExactOf(slot), store.record(slot).added_load, bytes);
   }
 
@@ -133,7 +140,7 @@ class Box2dAdapter::Impl final : public BodyTransport {
   void ClearLoads() {
     if (store.has_native_load() && world->GetAutoClearForces()) world->ClearForces();
     if (!has_added_load) return;
-    for (const auto& [id, slot] : store.Rows()) store.record(slot).added_load = {};
+    for (std::size_t slot = 0; slot < store.slot_count(); ++slot) store.record(static_cast<std::int32_t>(slot)).added_load = {};
     has_added_load = false;
   }
 
@@ -228,11 +235,13 @@ void Box2dAdapter::Assign(b2Body* body, std::int64_t id, const ExactBody& exact)
 }
 
 b2Body* Box2dAdapter::Find(std::int64_t id) const {
+  impl_->store.DropDestroyedIfAny();
   const std::int32_t slot = impl_->store.SlotOf(id);
   return slot < 0 ? nullptr : impl_->store.record(slot).body;
 }
 
 std::optional<std::int64_t> Box2dAdapter::IdOf(const b2Body* body) const {
+  impl_->store.DropDestroyedIfAny();
   const std::int32_t slot = impl_->store.SlotOf(body);
   return slot < 0 ? std::nullopt : std::optional(impl_->store.record(slot).id);
 }

@@ -110,7 +110,6 @@ Wrench NativeLoad(const b2Body& body, double scale) {
 
 std::uint64_t FingerprintOf(const b2Body& body) {
   Hash hash;
-  hash.Add(std::uint64_t{body.IsEnabled()} << 8 | static_cast<std::uint64_t>(body.GetType()));
   hash.Add(body.GetLocalCenter());
   for (const b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
     const b2Filter& filter = fixture->GetFilterData();

@@ -27,6 +27,10 @@ Twist TwistOf(const HostMirror& mirror, double scale);
 /// What ApplyForce, ApplyForceToCenter and ApplyTorque have gathered [N, N m]; Box2D has no accessor for it.
 Wrench NativeLoad(const b2Body& body, double scale);
 
+inline BodyKind KindOf(const b2Body& body) {
+  return body.GetType() == b2_dynamicBody ? BodyKind::kFree : BodyKind::kPrescribed;
+}
+
 /// Changes whenever anything that shapes, filters and materials come from has changed.
 std::uint64_t FingerprintOf(const b2Body& body);
 

@@ -133,8 +133,10 @@ void NarrowPhase::EmitWall(const Hit& hit) {
            closest.distance - placement_->shape(disk).radius);
   contacts_->lever_a.push_back(hit.wall_is_a ? 0.0 : closest.distance);
   contacts_->lever_b.push_back(hit.wall_is_a ? closest.distance : 0.0);
-  Vec2 site = placement_->shape(wall).centre + closest.point;
-  if (!hit.wall_is_a) site.x += Image(candidate) * placement_->period;
+  // The point on the wall, or the centre of a disk that lies deeper behind it than its radius.
+  const bool is_deep = closest.distance < -placement_->shape(disk).radius;
+  Vec2 site = is_deep ? placement_->shape(disk).centre : placement_->shape(wall).centre + closest.point;
+  if (is_deep == hit.wall_is_a) site.x += Image(candidate) * placement_->period;
   contacts_->site.push_back(site);
   contacts_->flat.push_back(closest.is_corner ? 0 : 1);
   hit.wall_is_a ? EmitArms(closest.point, ArmOf(disk)) : EmitArms(ArmOf(disk), closest.point);

@@ -94,7 +94,9 @@ void ContactDetector::FillWallPair(const Candidate& candidate, std::size_t i, Co
   contacts->lever_b[i] = wall_is_a ? distance : 0.0;
   contacts->arm_a[i] = wall_is_a ? point - wall.centre : disk.arm;
   contacts->arm_b[i] = wall_is_a ? disk.arm : point - wall.centre;
-  contacts->site[i] = wall_is_a ? point : point + shift;
+  const Vec2 on_wall = wall_is_a ? point : point + shift;
+  const Vec2 centre = wall_is_a ? seen_disk : disk.centre;
+  contacts->site[i] = distance < -disk.radius ? centre : on_wall;
   contacts->flat[i] = flat;
 }
 

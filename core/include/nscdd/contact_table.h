@@ -48,7 +48,8 @@ struct ContactTable {
   std::vector<double> lever_b;
   std::vector<Vec2> arm_a;            ///< both arms empty when all of them are zero
   std::vector<Vec2> arm_b;
-  std::vector<Vec2> site;             ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
+  std::vector<Vec2> site;  ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
+                           ///< (the disk's centre, as B is seen, where that is deeper than its radius behind the wall)
   std::vector<std::uint8_t> flat;     ///< 1: one side is flat here (half-plane, inside of a segment), 0: disks or a corner
   std::vector<double> friction;       ///< Coulomb coefficient >= 0
   std::vector<double> restitution;    ///< Newton coefficient in [0, 1]

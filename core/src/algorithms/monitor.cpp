@@ -84,6 +84,12 @@ void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const s
   // While no contact carries an impulse, the loads are the scale.
   const double scale = stagnation.quad_wr > 0.0 ? stagnation.quad_wr : problem_.scales.velocity;
   r.relative_jump = r.interface_jump == 0.0 ? 0.0 : scale > 0.0 ? r.interface_jump / scale : INFINITY;
+  if (first_nat_max_ < 0.0) first_nat_max_ = r.nat_max;
+}
+
+bool Monitor::RunsAway() const {
+  const Residuals& r = report_.residuals;
+  return std::isnan(r.nat) || !std::isfinite(r.nat_max) || r.nat_max > 1e6 * std::max(1.0, first_nat_max_);
 }
 
 void Monitor::Stop(SolveStatus status, std::string reason) {
@@ -139,10 +145,11 @@ const Residuals& Monitor::Measure(const std::vector<SweepStatistics>& statistics
 void Monitor::Conclude(bool subdomains_converged) {
   const double measure = CriterionNow();
   const char* name = Name(options_.criterion);
-  if (measure <= options_.tolerance) {
+  if (RunsAway() || !std::isfinite(measure)) {
+    Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g}; nat_max is {:.3g} after {:.3g} at first", name, measure,
+                                             report_.residuals.nat_max, first_nat_max_));
+  } else if (measure <= options_.tolerance) {
     Stop(SolveStatus::kConverged, ReasonOfSuccess());
-  } else if (!std::isfinite(measure)) {
-    Stop(SolveStatus::kDiverged, fmt::format("{} is {}", name, measure));
   } else if (subdomains_converged) {
     Stop(SolveStatus::kIncomplete, fmt::format("every subdomain converged, {} of the sample is {:.3g}", name, measure));
   } else {
@@ -159,20 +166,19 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
   const char* name = Name(options_.criterion);
   if (first_ < 0.0) {
     first_ = best_ = measure;
-    first_nat_max_ = r.nat_max;
     best_iteration_ = iteration;
     KeepBest(state);
   }
 
   // nat is infinite, which is no divergence, before the first impulse of bodies without loads.
   const bool grew = measure > 1.0 && measure > 1e6 * first_;
-  if (std::isnan(r.nat) || !std::isfinite(r.nat_max) || grew) {
+  if (grew) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g} after {:.3g} at the first test", name, measure, first_));
     return true;
   }
-  // The relative residual of impulses that run away stays near 1.
-  if (r.nat_max > 1e6 * std::max(1.0, first_nat_max_)) {
-    Stop(SolveStatus::kDiverged, fmt::format("nat_max is {:.3g} after {:.3g} at the first test", r.nat_max, first_nat_max_));
+  if (RunsAway()) {
+    Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g}; nat_max is {:.3g} after {:.3g} at the first test", name, measure,
+                                             r.nat_max, first_nat_max_));
     return true;
   }
   if (measure <= options_.tolerance) {

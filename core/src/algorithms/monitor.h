@@ -29,6 +29,9 @@ class Monitor {
   /// Measures without deciding. Collective.
   const Residuals& Measure(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
                            const PartitionedState& state);
+  /// The last measurement is no number, or so much worse than the first that the impulses run away; nat, which is relative to
+  /// them, then stays near 1.
+  bool RunsAway() const;
   /// How an incomplete resolution ended, after Measure(): converged if the criterion holds all the same.
   void Conclude(bool subdomains_converged);
 
@@ -58,7 +61,7 @@ class Monitor {
   SolveReport report_;
   NaturalParts worst_;   // of this rank's subdomains
   double first_ = -1.0;  // measure at the first test
-  double first_nat_max_ = 0.0;
+  double first_nat_max_ = -1.0;  // at the first measurement; < 0: none yet
   double best_ = 0.0;
   int best_iteration_ = 0;
   bool keep_best_;

@@ -16,7 +16,7 @@ SolveReport Solve(const PartitionedProblem& problem, const ReaOptions& options, 
       stages.SwapMeans();
       const double eta = monitor.Measure(stages.statistics(), stages.jumps(), *state).relative_jump;
       stages.SwapMeans();
-      if (eta <= options.stopping.tolerance) break;
+      if (eta <= options.stopping.tolerance || monitor.RunsAway()) break;
     }
     stages.UpdateInterface();
     if (it2 >= options.max_interface_updates) break;

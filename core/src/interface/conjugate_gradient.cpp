@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "parallel/agreement.h"
 #include "parallel/ordered_reduction.h"
 
 namespace nscdd {
@@ -37,7 +38,12 @@ AugmentedInterface::ConjugateGradient::ConjugateGradient(const PartitionedProble
   }
 }
 
+/// A matrix that cannot be factorised is met by the rank that has it.
 void AugmentedInterface::ConjugateGradient::SetMatrices() {
+  RunTogether(communicator_, [&] { SetLocalMatrices(); });
+}
+
+void AugmentedInterface::ConjugateGradient::SetLocalMatrices() {
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     if (parts_[e].nodes() == 0) continue;
     std::vector<std::int32_t> identity(parts_[e].nodes()), row, column;

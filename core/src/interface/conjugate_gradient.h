@@ -27,6 +27,7 @@ class AugmentedInterface::ConjugateGradient {
 
  private:
   void SetMatrices();
+  void SetLocalMatrices();
   void Iterate(double target, std::vector<double>* x, std::vector<double>* res);
   std::vector<double> ApplyInverse(const std::vector<double>& x);      // Pi M_lambda^-1 x
   std::vector<double> Precondition(const std::vector<double>& residual);

@@ -1,6 +1,7 @@
 #include "interface/direct_interface.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace nscdd {
 
@@ -15,25 +16,28 @@ std::vector<double> AugmentedInterface::Direct::Gather(const std::vector<double>
   return communicator_->size() == 1 ? mine : communicator_->AllGather(mine);
 }
 
-/// Bodies with a contact are numbered by their ids.
+/// Bodies with a contact are numbered by their ids, which travel as bits: not every id is a double.
 void AugmentedInterface::Direct::NumberNodes(const PartitionedProblem& problem) {
   std::vector<double> mine;
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     for (int i = 0; i < parts_[e].nodes(); ++i) {
-      mine.push_back(static_cast<double>((*problem.body_id)[problem.subdomains[e].body[parts_[e].CopyOf(i)]]));
+      mine.push_back(std::bit_cast<double>((*problem.body_id)[problem.subdomains[e].body[parts_[e].CopyOf(i)]]));
     }
   }
-  const std::vector<double> all = Gather(mine);
-  std::vector<double> ids = all;
+  std::vector<std::int64_t> all;
+  for (const double bits : Gather(mine)) all.push_back(std::bit_cast<std::int64_t>(bits));
+  std::vector<std::int64_t> ids = all;
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   unknowns_ = dofs_ * static_cast<int>(ids.size());
-  const auto number = [&](double id) { return static_cast<std::int32_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()); };
-  for (const double id : all) all_numbers_.push_back(number(id));
+  const auto number = [&](std::int64_t id) {
+    return static_cast<std::int32_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+  };
+  for (const std::int64_t id : all) all_numbers_.push_back(number(id));
   auto next = mine.begin();
   for (const AugmentedSubdomain& part : parts_) {
     auto& list = number_.emplace_back();
-    for (int i = 0; i < part.nodes(); ++i) list.push_back(number(*next++));
+    for (int i = 0; i < part.nodes(); ++i) list.push_back(number(std::bit_cast<std::int64_t>(*next++)));
   }
 }
 

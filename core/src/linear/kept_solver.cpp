@@ -13,19 +13,21 @@ bool KeptSolver::OnAll(bool mine) const {
 
 void KeptSolver::Set(int n, std::vector<std::int32_t> row, std::vector<std::int32_t> column, std::vector<double> values) {
   if (!OnAll(n == n_ && row == row_ && column == column_)) {
-    n_ = n;
+    n_ = -1;  // until the analysis has succeeded
     row_ = std::move(row);
     column_ = std::move(column);
     values_.clear();
-    solver_->Analyse(n_, row_, column_);
+    solver_->Analyse(n, row_, column_);
+    n_ = n;
   }
   SetValues(std::move(values));
 }
 
 void KeptSolver::SetValues(std::vector<double> values) {
   if (OnAll(!values_.empty() && values == values_)) return;
+  values_.clear();  // until the factorisation has succeeded
+  solver_->Factorise(values);
   values_ = std::move(values);
-  solver_->Factorise(values_);
 }
 
 }  // namespace nscdd

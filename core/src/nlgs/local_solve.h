@@ -27,8 +27,9 @@ inline Local SolveLocal(const FrictionRow& c, Local r, Local v) {
 /// True where the contact with W_nt != 0 may have no solution or two (Painleve): mu |W_nt| >= W_nn.
 inline bool IsPainleve(const FrictionArmsRow& c) { return c.friction * std::abs(c.wnt) >= c.wnn; }
 
-/// Branches in the order open, stick, slide (+), slide (-); the first that holds is taken. If none holds (Painleve only), the
-/// contact opens: the residual then says that the law is not met.
+/// Branches in the order open, stick, slide (+), slide (-); the first that holds is taken. If none holds by rounding, on the
+/// edge of the cone, it slides the way that sticking points to; if none holds at all (Painleve), it opens: the residual then
+/// says that the law is not met.
 inline Local SolveLocal(const FrictionArmsRow& c, Local r, Local v) {
   const double qn = v.n + c.offset - c.wnn * r.n - c.wnt * r.t;
   const double qt = v.t - c.wnt * r.n - c.wtt * r.t;
@@ -42,7 +43,10 @@ inline Local SolveLocal(const FrictionArmsRow& c, Local r, Local v) {
     const Local slide{-qn / d, -sign * c.friction * qn / d};
     if (sign * (c.wtt * slide.t + c.wnt * slide.n + qt) <= 0.0) return slide;
   }
-  return {};
+  if (IsPainleve(c)) return {};
+  const double sign = std::copysign(1.0, stick.t);
+  const double rn = -qn / (c.wnn + sign * c.friction * c.wnt);
+  return {rn, sign * c.friction * rn};
 }
 
 }  // namespace nscdd

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "nscdd/error.h"
@@ -17,6 +18,14 @@ enum class Record : std::uint8_t { kBody, kRemoval };
 [[noreturn]] void RefuseTwice(std::int64_t id) {
   throw Error(fmt::format("body {} is in the hosts of several ranks; ids are unique and every new body is in exactly one host, the "
                           "solver makes the ghosts", id));
+}
+
+void CheckSize(const std::vector<std::byte>& parcel, int rank) {
+  if (parcel.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max())) return;
+  throw Error(fmt::format(
+      "{} bytes of bodies would go to rank {} at once, a message holds 2^31 - 1; spread the bodies over the hosts of "
+      "several ranks from the start",
+      parcel.size(), rank));
 }
 
 bool Contains(const std::vector<int>& ranks, int rank) { return std::binary_search(ranks.begin(), ranks.end(), rank); }
@@ -44,8 +53,23 @@ void Distribution::TakeOver(BodyTable read) {
   }
   removed_.clear();
   removed_from_.clear();
+  if (!unwanted_.empty()) SkipUnwanted(&next);
   if (communicator_->size() > 1) Recognise(&next);
   population_ = std::move(next);
+}
+
+void Distribution::Forget() {
+  population_ = known_ = {};
+  settled_ = false;
+  unwanted_.clear();
+}
+
+/// Bodies that a failed step left in the host are not there for anybody.
+void Distribution::SkipUnwanted(Population* next) {
+  std::erase_if(unwanted_, [&](std::int64_t id) { return next->RowOf(id) < 0; });
+  std::vector<char> keep(next->size(), 1);
+  for (const std::int64_t id : unwanted_) keep[next->RowOf(id)] = 0;
+  Filter(keep, next);
 }
 
 void Distribution::Recognise(Population* next) {
@@ -166,19 +190,17 @@ void Distribution::PackAll(const std::vector<Pose>& detection, const Grid& grid,
   }
 }
 
-/// If this host has one.
-void Distribution::RemoveGhost(std::int64_t id) {
+bool Distribution::HasGhost(std::int64_t id) const {
   const std::ptrdiff_t row = known_.RowOf(id);
-  if (row < 0 || known_.owner[row] == communicator_->rank()) return;
-  known_.owner[row] = communicator_->rank();  // gone
-  adapter_->transport()->Remove(id);
+  return row >= 0 && known_.owner[row] != communicator_->rank();
 }
 
 void Distribution::Unpack(const Message& message, ImpulseCache* cache) {
   ByteReader in(message.bytes);
   while (!in.empty()) {
     if (in.Get<Record>() == Record::kRemoval) {
-      RemoveGhost(in.Get<std::int64_t>());
+      const auto id = in.Get<std::int64_t>();
+      if (HasGhost(id)) leaving_.push_back(id);
       continue;
     }
     BodyTable& t = population_.bodies;
@@ -193,11 +215,39 @@ void Distribution::Unpack(const Message& message, ImpulseCache* cache) {
     const auto interfaces = in.GetVector<CachedInterfaceImpulse>();
     cache->contacts.insert(cache->contacts.end(), contacts.begin(), contacts.end());
     cache->interfaces.insert(cache->interfaces.end(), interfaces.begin(), interfaces.end());
-    if (!in.Get<bool>()) continue;
-    const auto shapes = in.GetVector<std::byte>();
-    RemoveGhost(t.id.back());
-    adapter_->transport()->Insert(t.id.back(), shapes);
+    if (in.Get<bool>()) arrivals_.push_back({.id = t.id.back(), .shapes = in.GetVector<std::byte>(), .replaced = {}});
   }
+}
+
+/// Bodies come in before others go, and what they replace is kept: a body is always in some host, whatever fails.
+void Distribution::InsertArrivals() {
+  BodyTransport* transport = adapter_->transport();
+  for (Arrival& arrival : arrivals_) {
+    if (HasGhost(arrival.id) || std::count(unwanted_.begin(), unwanted_.end(), arrival.id) > 0) {
+      transport->Pack(arrival.id, &arrival.replaced);
+      transport->Remove(arrival.id);
+      arrival.is_removed = true;
+    }
+    transport->Insert(arrival.id, arrival.shapes);
+    arrival.is_inserted = true;
+  }
+}
+
+/// The hosts become what they were before InsertArrivals(), as far as they can: the failure that led here is told, a second one
+/// is not.
+void Distribution::UndoArrivals() {
+  BodyTransport* transport = adapter_->transport();
+  for (Arrival& arrival : arrivals_) {
+    try {
+      if (arrival.is_inserted) transport->Remove(arrival.id);
+      if (arrival.is_removed) transport->Insert(arrival.id, arrival.replaced);
+    } catch (...) {
+    }
+  }
+}
+
+void Distribution::RemoveUnwanted() {
+  for (; !unwanted_.empty(); unwanted_.pop_back()) adapter_->transport()->Remove(unwanted_.back());
 }
 
 void Distribution::SortRows() {
@@ -211,24 +261,35 @@ void Distribution::Move(const std::vector<Pose>& detection, const Grid& grid, co
                         ImpulseCache* cache) {
   migrated_ = 0;
   leaving_.clear();
+  arrivals_.clear();
   if (communicator_->size() == 1) return;
   Parcels parcels;
-  RunTogether(communicator_, [&] { PackAll(detection, grid, blocks, reach, *cache, &parcels); });
+  RunTogether(communicator_, [&] {
+    PackAll(detection, grid, blocks, reach, *cache, &parcels);
+    for (const auto& [rank, bytes] : parcels) CheckSize(bytes, rank);
+  });
   std::vector<Message> outgoing;
   for (auto& [rank, bytes] : parcels) outgoing.push_back({rank, std::move(bytes)});
   const std::vector<Message> incoming = communicator_->Deliver(std::move(outgoing));
-  RunTogether(communicator_, [&] {
-    std::vector<char> keep(population_.size(), 1);
-    for (const std::int64_t id : leaving_) {
-      keep[population_.RowOf(id)] = 0;
-      adapter_->transport()->Remove(id);
-    }
-    Filter(keep, &population_);
-    for (const Message& message : incoming) Unpack(message, cache);
-    SortRows();
-    cache->Sort();
-  });
+  try {
+    RunTogether(communicator_, [&] {
+      std::vector<char> keep(population_.size(), 1);
+      for (const std::int64_t id : leaving_) keep[population_.RowOf(id)] = 0;
+      Filter(keep, &population_);
+      for (const Message& message : incoming) Unpack(message, cache);
+      SortRows();
+      cache->Sort();
+      InsertArrivals();
+    });
+  } catch (const Error&) {
+    UndoArrivals();
+    throw;
+  }
   settled_ = true;
+  arrivals_.clear();
+  unwanted_.insert(unwanted_.end(), leaving_.begin(), leaving_.end());
+  std::erase_if(unwanted_, [&](std::int64_t id) { return population_.RowOf(id) >= 0; });
+  RunTogether(communicator_, [&] { RemoveUnwanted(); });
 }
 
 Sharing Distribution::Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const {

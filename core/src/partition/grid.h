@@ -16,6 +16,8 @@ class Grid {
 
   /// The x cuts become those of the period.
   void SetPeriod(double origin, double period);
+  /// 0: none, whatever the origin.
+  bool HasPeriod(double origin, double period) const { return period_ == period && (period == 0.0 || low_.x == origin); }
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }

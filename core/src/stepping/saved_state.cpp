@@ -31,6 +31,8 @@ void Require(bool holds, const std::string& sentence) {
   if (!holds) throw Error(sentence);
 }
 
+bool IsFinite(Vec2 a) { return std::isfinite(a.x) && std::isfinite(a.y); }
+
 void PutKey(const ContactKey& key, ByteWriter* out) {
   out->Put(key.body_a);
   out->Put(key.body_b);
@@ -90,7 +92,8 @@ void CheckHead(const Head& head, int nx, int ny) {
   const StepperState& s = head.state;
   const bool is_cut = s.grid.nx() == nx && s.grid.ny() == ny;
   Require(head.ranks > 0 && s.step >= 0 && s.step < kMostSteps && std::isfinite(s.time) && std::isfinite(s.alert) &&
-              std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && (is_cut || s.step == 0),
+              std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && IsFinite(s.grid.low()) && IsFinite(s.grid.high()) &&
+              (is_cut || s.step == 0),
           "the saved state is damaged: its counters make no sense; take another one");
 }
 

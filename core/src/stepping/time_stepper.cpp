@@ -97,8 +97,10 @@ class TimeStepper::Impl {
   bool IsFree(std::size_t row) const { return bodies().kind[row] == BodyKind::kFree; }
   int HomeOf(const Pose& q) const { return grid_.CellOf(Centre(q)); }
 
-  Pose Drift(const Pose& q, const Twist& v, double dt) const {
-    return {grid_.Wrap(q.x + dt * v.vx), q.y + dt * v.vy, q.angle + dt * v.spin};
+  /// Free bodies are wrapped into the period; a wall stays where its host has it.
+  Pose Drift(std::size_t row, const Pose& q, const Twist& v, double dt) const {
+    const double x = q.x + dt * v.vx;
+    return {IsFree(row) ? grid_.Wrap(x) : x, q.y + dt * v.vy, q.angle + dt * v.spin};
   }
 
   void Distribute(double dt);
@@ -167,7 +169,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   if (description_.period > 0.0 && step_ == 0) grid_.SetPeriod(description_.period_origin, description_.period);
   const auto drift_all = [&] {
     detection_.resize(rows());
-    for (std::size_t i = 0; i < rows(); ++i) detection_[i] = Drift(bodies().pose[i], bodies().velocity[i], half);
+    for (std::size_t i = 0; i < rows(); ++i) detection_[i] = Drift(i, bodies().pose[i], bodies().velocity[i], half);
   };
   drift_all();
   Reach reach;
@@ -369,8 +371,8 @@ void TimeStepper::Impl::Advance(double dt) {
   for (std::size_t i = 0; i < rows(); ++i) {
     if (!distribution_.Owns(i)) continue;
     const BodyTable& t = bodies();
-    outcome_.bodies.push_back({t.id[i], t.kind[i], t.radius[i], Drift(detection_[i], velocity_[i], half), velocity_[i],
-                             sharing_.Multiplicity(i), HomeOf(detection_[i])});
+    outcome_.bodies.push_back({t.id[i], t.kind[i], t.radius[i], Drift(i, detection_[i], velocity_[i], half), velocity_[i],
+                               sharing_.Multiplicity(i), HomeOf(detection_[i])});
   }
   Summarise(dt);
   RunTogether(communicator_, [&] { outcome_.Commit(adapter_); });
@@ -460,6 +462,11 @@ std::vector<std::byte> TimeStepper::Impl::SaveState() const {
 void TimeStepper::Impl::LoadState(std::span<const std::span<const std::byte>> parts) {
   ImpulseCache cache;
   const StepperState state = ReadStates(parts, partition_.nx, partition_.ny, communicator_, &cache);
+  if (state.step > 0 && !state.grid.HasPeriod(description_.period_origin, description_.period)) {
+    throw Error(fmt::format("the saved state is of a world with another period than {} m from {} m (0: none)",
+                            description_.period, description_.period_origin));
+  }
+  distribution_.Forget();
   step_ = state.step;
   time_ = state.time;
   alert_ = state.alert;

@@ -47,6 +47,12 @@ class Line {
                             where_, column, text));
   }
 
+  void CheckGrid(const std::string& grid) const {
+    if (CellsOf(grid) > 0) return;
+    throw Error(fmt::format("{}: subdomains = {} is no grid such as 4x2; measure the front anew with `nscdd tradeoff --store`",
+                            where_, grid));
+  }
+
  private:
   std::string where_;
   const std::vector<std::string>& header_;
@@ -61,6 +67,7 @@ FrontEntry EntryOf(const Line& line) {
     const auto equals = option.find('=');
     if (equals != std::string::npos) entry.setting.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
   }
+  line.CheckGrid(entry.setting.Option("subdomains", "1x1"));
   entry.seconds = line.Number("seconds");
   entry.nat = line.Number("nat");
   entry.interpenetration = line.Number("interpenetration_max");
@@ -68,6 +75,15 @@ FrontEntry EntryOf(const Line& line) {
 }
 
 }  // namespace
+
+std::int64_t CellsOf(const std::string& grid) {
+  std::int32_t nx = 0, ny = 0;
+  const char* end = grid.data() + grid.size();
+  const auto [cross, error] = std::from_chars(grid.data(), end, nx);
+  if (error != std::errc() || cross == end || *cross != 'x') return 0;
+  const auto [last, error_y] = std::from_chars(cross + 1, end, ny);
+  return error_y == std::errc() && last == end && nx > 0 && ny > 0 ? std::int64_t{nx} * ny : 0;
+}
 
 std::filesystem::path FrontFileOf(const std::filesystem::path& scene) {
   std::filesystem::path file = scene;

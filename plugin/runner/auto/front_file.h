@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tradeoff/setting.h"
@@ -14,6 +16,9 @@ struct FrontEntry {
   double nat = 0.0;               ///< [-] median
   double interpenetration = 0.0;  ///< largest of the run [mean radii]
 };
+
+/// Subdomains of a grid such as "4x2"; 0 if it is none.
+std::int64_t CellsOf(const std::string& grid);
 
 /// SCENE.front.csv for SCENE.toml.
 std::filesystem::path FrontFileOf(const std::filesystem::path& scene);

@@ -22,11 +22,6 @@ bool Has(const SolverRegistry& registry, const std::string& solver, const std::s
 
 std::string GridOf(const Setting& setting) { return setting.Option("subdomains", kOneSubdomain); }
 
-std::int64_t CellsOf(const std::string& grid) {
-  const auto cross = grid.find('x');
-  return std::stoll(grid.substr(0, cross)) * std::stoll(grid.substr(cross + 1));
-}
-
 /// Index of the entry to begin with.
 std::size_t First(const AutoSettings& wish, const std::vector<FrontEntry>& usable) {
   if (wish.interpenetration) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -219,7 +220,7 @@ void SceneRun::NoteDeepOverlaps(double mean_radius) {
   const DeepContacts mine = FindDeepContacts(*solver_, 0.1 * mean_radius);
   const std::int64_t count = ranks_.Sum(mine.count);
   if (count == 0) return;
-  const auto picometres = [](double depth) { return static_cast<std::int64_t>(depth * 1e12); };
+  const auto picometres = [](double depth) { return static_cast<std::int64_t>(std::min(depth * 1e12, 9e18)); };
   const std::int64_t deepest = -ranks_.Min(-picometres(mine.deepest));
   overlap_note_ = fmt::format("note: {} contact{} began deeper than a tenth of the mean radius, the deepest by {:.3g} m", count,
                               count == 1 ? "" : "s", static_cast<double>(deepest) * 1e-12);
