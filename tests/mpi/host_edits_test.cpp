@@ -119,9 +119,12 @@ Saved SaveAll(const RankedHost& host) {
   return saved;
 }
 
-/// Goes on from `saved` on the ranks of `c`: body k on rank (7 k + 1) % size, part i on rank (i + shift) % size.
-std::vector<std::vector<double>> GoOn(const Saved& saved, int shift, const NscddOptions& options, Communicator* c) {
+/// Goes on from `saved` on the ranks of `c`: body k on rank (7 k + 1) % size, part i on rank (i + shift) % size. `live`: with a
+/// solver that has made steps of its own.
+std::vector<std::vector<double>> GoOn(const Saved& saved, int shift, const NscddOptions& options, Communicator* c,
+                                      bool live = false) {
   RankedHost host({}, options, c);
+  if (live) host.Step(2);
   const auto is_mine = [c](std::size_t number) { return static_cast<int>(number) % c->size() == c->rank(); };
   for (const reference::Body& b : saved.bodies) {
     if (host.world.Find(b.id) != nullptr) host.world.Remove(b.id);
@@ -129,7 +132,7 @@ std::vector<std::vector<double>> GoOn(const Saved& saved, int shift, const Nscdd
   for (std::size_t k = 0; k < saved.bodies.size(); ++k) {
     if (is_mine(7 * k + 1)) host.world.Add(saved.bodies[k]);
   }
-  host.Start(options);
+  if (!live) host.Start(options);
   std::vector<std::span<const std::byte>> mine;
   for (std::size_t i = 0; i < saved.parts.size(); ++i) {
     if (is_mine(i + static_cast<std::size_t>(shift))) mine.emplace_back(saved.parts[i]);
@@ -160,6 +163,9 @@ int CheckContinuationOnOtherRanks(Communicator* c) {
       return mine == 1.0;
     };
     failures += ReportCheck(fmt::format("what 4 ranks saved goes on on {}", ranks), same(of_four, 0) && same(of_four, 1), c);
+    double live = c->rank() >= ranks || GoOn(of_four, 1, options, &group, true) == expected ? 1.0 : 0.0;
+    c->AllReduceMin({&live, 1});
+    failures += ReportCheck(fmt::format("on {} with a solver that has stepped", ranks), live == 1.0, c);
     failures += ReportCheck(fmt::format("what 1 rank saved goes on on {}", ranks), same(of_one, 0) && same(of_one, 2), c);
     MPI_Comm_free(&part);
   }
@@ -273,8 +279,31 @@ int CheckFailures(Communicator* c) {
   return failures;
 }
 
+// Weights that part by 1e23 leave a matrix of one rank's subdomain that cannot be factorised: refused on both, without waiting.
+int CheckSingularMatrix(Communicator* c) {
+  FeaOptions options;
+  options.partition = {4, 1, 1};
+  options.interface.solve = InterfaceSolve::kCg;
+  options.interface.lambda = 1e8;
+  options.interface.reference_mass = 1e15;
+  reference::World world;
+  if (c->rank() == 0) {
+    for (int k = 0; k < 6; ++k) {
+      reference::Body disk = reference::MakeDisk(k, {0.98 * k, 0.0}, 0.5, 1000.0);
+      disk.velocity.vx = 3.0 - k;
+      world.Add(disk);
+    }
+    for (int k = 6; k < 12; ++k) world.Add(reference::MakeDisk(k, {2.0 * k, 0.0}, 0.5, 1000.0));
+  }
+  reference::ReferenceAdapter adapter(&world);
+  TimeStepper stepper({}, options, &adapter, c);
+  const std::string refusal = RefusalOf([&] { stepper.Step(0.01); });
+  return ReportCheck("a matrix that one rank cannot factorise", refusal.find("positive definite") != std::string::npos, c,
+                     refusal);
+}
+
 int CheckBadHosts(Communicator* c) {
-  int failures = 0;
+  int failures = CheckSingularMatrix(c);
   const NscddOptions options = Strips(2, 3);
   {
     // A number of one host, mended afterwards. What others removed at the same time stays removed.

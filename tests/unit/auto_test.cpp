@@ -114,6 +114,11 @@ TEST_F(AutoFront, RefusesWhatItCannotRead) {
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find(":2: column 'interpenetration_max' is 'x'"), std::string::npos) << e.what();
   }
+  for (const char* grid : {"abc", "2x", "x2", "0x3", "2x2x2", "99999999999x9", "-1x-1"}) {
+    const std::string line = std::string("a,nscdd,subdomains=") + grid + ",1,1,1\n";
+    EXPECT_THROW(ReadFront(Write("setting,solver,options,nat,interpenetration_max,seconds\n" + line)), Error) << grid;
+  }
+  EXPECT_EQ(CellsOf("3x20"), 60);
 }
 
 TEST_F(AutoFront, SafeLadderBeginsCheapAndIsKnownToThePlugin) {

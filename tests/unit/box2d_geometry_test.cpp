@@ -298,5 +298,41 @@ TEST_F(Box2dGeometry, SensorsTouchNothingAndKeepTheirNumber) {
   EXPECT_EQ(bodies.radius[0], 1.0);
 }
 
+TEST_F(Box2dGeometry, SiteOfADeepDiskIsItsCentre) {
+  b2Body* box = AddBody(&world_, b2_staticBody, {0.0f, -10.0f});
+  b2PolygonShape shape;
+  shape.SetAsBox(10.0f, 10.0f);
+  box->CreateFixture(&shape, 0.0f);
+  AddDisk(&world_, {2.0f, -4.0f}, 0.5f);
+  AddDisk(&world_, {5.0f, 0.25f}, 0.5f);
+  Box2dAdapter adapter(&world_);
+  const ContactTable c = Detect(&adapter, 0.1);
+  ASSERT_EQ(c.size(), 2u);
+  EXPECT_EQ(c.gap[0], -4.5);
+  EXPECT_EQ(c.site[0].y, -4.0);
+  EXPECT_NEAR(c.site[1].y, 0.0, 1e-6);
+}
+
+// An exact shape stands for its fixture until the fixture changes; whether the body is enabled, and its type, are not of the
+// fixture.
+TEST_F(Box2dGeometry, ExactShapesOutliveSetEnabledAndSetType) {
+  b2Body* floor = AddBody(&world_, b2_staticBody, {0.0f, 0.0f});
+  b2Fixture* edge = AddEdge(floor, {-1.0f, 0.0f}, {1.0f, 0.0f});
+  AddDisk(&world_, {5.0f, 0.5f}, 0.5f);
+  Box2dAdapter adapter(&world_);
+  ExactBody exact;
+  exact.shapes.push_back({HalfPlaneGeometry{{0.0, 1.0}, 0.0}, {}, {}});
+  adapter.Assign(floor, 0, exact);
+  EXPECT_EQ(Detect(&adapter, 0.1).size(), 1u);
+  floor->SetEnabled(false);
+  EXPECT_EQ(Detect(&adapter, 0.1).size(), 0u);
+  floor->SetEnabled(true);
+  EXPECT_EQ(Detect(&adapter, 0.1).size(), 1u);
+  floor->SetType(b2_kinematicBody);
+  EXPECT_EQ(Detect(&adapter, 0.1).size(), 1u);
+  edge->SetFriction(0.9f);
+  EXPECT_EQ(Detect(&adapter, 0.1).size(), 0u) << "the fixture has changed";
+}
+
 }  // namespace
 }  // namespace nscdd::box2d

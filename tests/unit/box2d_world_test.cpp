@@ -259,5 +259,62 @@ TEST(Box2dWorld, TwoAdaptersShareAWorld) {
   EXPECT_EQ(bodies.pose[0].x, static_cast<double>(3.3f)) << "what one writes is an edit to the other";
 }
 
+TEST(Box2dLoads, ActOnceAlsoOnABodyThatWasDisabled) {
+  b2World world({0.0f, 0.0f});
+  b2Body* disk = AddDisk(&world, {0.0f, 0.0f});
+  AddDisk(&world, {5.0f, 0.0f});
+  Box2dAdapter adapter(&world);
+  BodyTable bodies;
+  const auto step = [&] {
+    adapter.ReadBodies(&bodies);
+    adapter.Commit({bodies.id, bodies.pose, bodies.velocity, {}, {}});
+  };
+  step();
+  disk->SetEnabled(false);
+  adapter.AddLoad(0, {1.0, 0.0, 0.0});
+  step();
+  disk->SetEnabled(true);
+  step();
+  ASSERT_EQ(bodies.size(), 2u);
+  EXPECT_EQ(bodies.force[0].fx, 0.0);
+}
+
+TEST(Box2dWorld, DestroyedBodiesAreForgottenAtOnce) {
+  b2World world({0.0f, 0.0f});
+  b2Body* gone = AddDisk(&world, {0.0f, 0.0f});
+  AddDisk(&world, {5.0f, 0.0f});
+  Box2dAdapter adapter(&world);
+  Detect(&adapter, 0.1);
+  world.DestroyBody(gone);
+  EXPECT_EQ(adapter.Find(0), nullptr);
+  EXPECT_TRUE(Contains(Refusal([&] { adapter.SetPose(0, {1.0, 2.0, 0.0}); }), "body 0"));
+  AddDisk(&world, {9.0f, 0.0f});  // perhaps in the memory of the one before
+  EXPECT_EQ(adapter.Find(0), nullptr);
+  EXPECT_NE(adapter.Find(1), nullptr);
+}
+
+TEST(Box2dTransport, JointsDoNotTravel) {
+  b2World world({0.0f, 0.0f});
+  b2Body *one = AddDisk(&world, {0.0f, 0.0f}), *other = AddDisk(&world, {3.0f, 0.0f});
+  b2DistanceJointDef def;
+  def.Initialize(one, other, {0.0f, 0.0f}, {3.0f, 0.0f});
+  world.CreateJoint(&def);
+  Box2dOptions options;
+  options.joints_only_filter = true;
+  Box2dAdapter adapter(&world, options);
+  Detect(&adapter, 0.1);
+  EXPECT_TRUE(Contains(Refusal([&] { Packed(&adapter, 0); }), "Body 0 has a joint"));
+}
+
+TEST(Box2dWorld, StaticBodiesAreNotAssignedAVelocity) {
+  b2World world({0.0f, 0.0f});
+  Box2dAdapter adapter(&world);
+  b2Body* wall = AddBody(&world, b2_staticBody, {0.0f, 0.0f});
+  const ExactBody exact{{}, Twist{1.0, 0.0, 0.0}, {}, {}, {}};
+  EXPECT_TRUE(Contains(Refusal([&] { adapter.Assign(wall, 3, exact); }), "body 3 is static"));
+  adapter.Assign(wall, 3);
+  EXPECT_TRUE(Contains(Refusal([&] { adapter.Assign(AddDisk(&world, {5.0f, 0.0f}), INT64_MAX); }), "2^63 - 1"));
+}
+
 }  // namespace
 }  // namespace nscdd::box2d

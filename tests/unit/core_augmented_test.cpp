@@ -289,5 +289,22 @@ TEST(AugmentedInterface, DivergenceIsAStatusAndKeepsAGoodIterate) {
   EXPECT_THROW(SolveContactProblem(source, fea), Error);
 }
 
+// The relative residual of impulses that run away stays near 1; the worst contact tells, and nothing of it is returned.
+TEST(AugmentedInterface, ReaThatRunsAwayHasDiverged) {
+  const ContactProblem source = SampleProblem({.columns = 12, .rows = 12, .friction = 0.0, .subdomains = 6});
+  ReaOptions rea;
+  rea.sweeps_per_stage = 1;
+  rea.interface.local_velocity = LocalVelocity::kCurrent;
+  rea.interface.compatibility = Compatibility::kFull;
+  rea.interface.lambda = 1e4;
+  rea.max_interface_updates = 2000;
+  const ContactSolution s = SolveContactProblem(source, rea);
+  EXPECT_EQ(s.report.status, SolveStatus::kDiverged) << s.report.reason;
+  EXPECT_LT(s.report.interface_updates, 2000);
+  for (const Vec2& r : s.impulse) EXPECT_EQ(r.x, 0.0);
+  rea.interface.lambda = 1.0;
+  EXPECT_NE(SolveContactProblem(source, rea).report.status, SolveStatus::kDiverged);
+}
+
 }  // namespace
 }  // namespace nscdd

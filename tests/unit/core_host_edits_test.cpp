@@ -224,5 +224,42 @@ TEST(Repartition, EveryKSteps) {
   }
 }
 
+// Ids are names: any number up to 2^63 - 1, and results do not depend on them.
+TEST(Ids, LargeOnesAreToldApart) {
+  FeaOptions options;
+  options.partition = {2, 2, 1};
+  options.interface.solve = InterfaceSolve::kDirect;
+  Piled small(options), large(options);
+  small.Fill();
+  constexpr std::int64_t kShift = (std::int64_t{1} << 62) + 1;
+  for (reference::Body b : small.world.bodies()) {
+    b.id += kShift;
+    large.world.Add(b);
+  }
+  for (int k = 0; k < 5; ++k) {
+    const StepReport &a = small.Step(kDt), &b = large.Step(kDt);
+    ASSERT_EQ(a.solve.iterations, b.solve.iterations);
+    ASSERT_EQ(a.solve.residuals.nat, b.solve.residuals.nat);
+  }
+}
+
+TEST(Continuation, StateOfAnotherPeriodIsRefused) {
+  const auto state_of = [](double period, double origin) {
+    Host host({}, Nscdd(2, 1));
+    host.world.period = period;
+    host.world.period_origin = origin;
+    host.AddDisk(1, {5.0, 0.0}, 0.5);
+    host.Step(kDt);
+    return host.stepper().SaveState();
+  };
+  Host host({}, Nscdd(2, 1));
+  host.world.period = 12.0;
+  host.AddDisk(1, {5.0, 0.0}, 0.5);
+  EXPECT_EQ(Refusal([&] { host.stepper().LoadState(state_of(12.0, 0.0)); }), "");
+  for (const auto& state : {state_of(10.0, 0.0), state_of(12.0, 1.0), state_of(0.0, 0.0)}) {
+    ExpectContains(Refusal([&] { host.stepper().LoadState(state); }), "another period than 12 m from 0 m");
+  }
+}
+
 }  // namespace
 }  // namespace nscdd

@@ -70,6 +70,24 @@ TEST(LocalSolve, ClusterWithCoupling) {
   EXPECT_GT(std::min({open, stick, slide}), 1000);
 }
 
+// Rounding may put an impulse on the cone's edge outside of stick and of slide alike; the loaded contact must not open for
+// that.
+TEST(LocalSolve, ClusterOnTheEdgeOfTheCone) {
+  Draw draw;
+  for (int k = 0; k < 20000; ++k) {
+    FrictionArmsRow c{};
+    c.wnn = draw(0.5, 2);
+    c.wnt = draw(-0.4, 0.4);
+    c.wtt = draw(0.5, 2);
+    c.friction = draw(0.05, 0.9);
+    const Local edge{1.0, (k % 2 == 0 ? 1.0 : -1.0) * c.friction};
+    const Local v{-c.wnn * edge.n - c.wnt * edge.t, -c.wnt * edge.n - c.wtt * edge.t};
+    const Local r = SolveLocal(c, {}, v);
+    ASSERT_NEAR(r.n, edge.n, 1e-12);
+    ASSERT_NEAR(r.t, edge.t, 1e-12);
+  }
+}
+
 TEST(LocalSolve, CouplingVanishesContinuously) {
   FrictionRow disk{};
   disk.inverse_wnn = 0.5;

@@ -244,5 +244,20 @@ TEST(ReferenceDetection, DisksAloneHaveNoArmsAndNoImages) {
   EXPECT_FALSE(contacts.has_images());
 }
 
+// The site of a contact is never further from the disk than it reaches, or no rank would look for it there.
+TEST(ReferenceDetection, SiteOfADeepDiskIsItsCentre) {
+  World world;
+  Body wall = MakeWall(0);
+  wall.half_planes.push_back({});
+  world.Add(wall);
+  world.Add(MakeDisk(1, {2.0, -4.0}, 0.5, 1.0));
+  world.Add(MakeDisk(2, {7.0, 0.4}, 0.5, 1.0));
+  const ContactTable c = Detect(&world, 0.1);
+  ASSERT_EQ(c.size(), 2u);
+  EXPECT_EQ(c.gap[0], -4.5);
+  EXPECT_EQ(c.site[0].y, -4.0);
+  EXPECT_EQ(c.site[1].y, 0.0);
+}
+
 }  // namespace
 }  // namespace nscdd::reference
