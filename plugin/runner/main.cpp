@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <limits>
 
 #include "commands/check.h"
 #include "commands/export.h"
@@ -24,6 +25,19 @@ namespace {
 
 using namespace nscdd;
 
+/// Refuses with a sentence; CLI11's own validators print the largest double in full.
+CLI::Validator AtLeast(double least, const char* name) {
+  return CLI::Validator(
+      [least, name](const std::string& text) {
+        double value = 0.0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= 1e9;
+        return good ? std::string() : fmt::format("'{}' is no number {} up to 1e9", Printable(text), name);
+      },
+      "");
+}
+const CLI::Validator kPositive = AtLeast(std::numeric_limits<double>::min(), "above 0");
+const CLI::Validator kNotNegative = AtLeast(0.0, "from 0");
+
 /// An option whose text goes to the solver under `name`.
 void AddSolverOption(CLI::App* command, SolverRequest* request, const std::string& flag, const std::string& name,
                      const std::string& help) {
@@ -35,7 +49,7 @@ void AddSolverOption(CLI::App* command, SolverRequest* request, const std::strin
 void AddSolverOptions(CLI::App* command, SolverRequest* request) {
   command->add_option("--solver", request->solver, "Solver: see `nscdd solvers`");
   command->add_option("--plugin", request->plugin, "Solver plugin (default: $NSCDD_PLUGIN, else the one beside this program)");
-  AddSolverOption(command, request, "--subdomains", "subdomains", "Grid of subdomains, NXxNY (all but nscd)");
+  AddSolverOption(command, request, "--subdomains", "subdomains", "Grid of subdomains, NXxNY (all but nscd and newton)");
   AddSolverOption(command, request, "--tolerance", "tolerance", "Tolerance of the criterion");
   AddSolverOption(command, request, "--criterion", "criterion", "nat, nat_max, quad, maxm or qm16");
   AddSolverOption(command, request, "--max-iterations", "max_iterations", "Sweeps, or interface updates, at most");
@@ -58,8 +72,9 @@ class Program {
   explicit Program(const MpiSession& session) : session_(session) {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", "nscdd " NSCDD_VERSION);
-    app_.footer("Exit codes: 0 fine, 2 bad input, 3 stopped at a step that did not converge (on_nonconvergence = \"stop\"), "
-                "4 ended by a signal and ready for --resume.");
+    app_.footer(
+        "Exit codes: 0 fine, 2 bad input, 3 stopped at a step that did not converge (on_nonconvergence = \"stop\"), "
+        "4 ended by a signal and ready for --resume, 1 a fault of the program or (extremes) of a solver.");
     AddRun();
     AddCheck();
     AddSolvers();
@@ -79,7 +94,10 @@ class Program {
       if (session_.ranks().is_root()) app_.exit(e);
       return help ? 0 : 2;
     }
-    return action_();
+    const int code = action_();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw Error("what was printed could not be written; mend the standard output");
+    return code;
   }
 
  private:
@@ -102,12 +120,11 @@ class Program {
     run->add_flag_callback("--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); },
                            "Begin every step from zero impulses");
     run->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
-    run->add_option("--steps", run_.steps, "Number of steps in all, those before --resume included")
-        ->check(CLI::PositiveNumber);
+    run->add_option("--steps", run_.steps, "Number of steps in all, those before --resume included")->check(kPositive);
     run->add_option("--save-every", run_.save_every, "Save every K-th step in results.h5 (default: first and last)")
-        ->check(CLI::PositiveNumber);
+        ->check(kPositive);
     run->add_option("--checkpoint-every", run_.checkpoint_every, "Write a checkpoint every N-th step, for --resume")
-        ->check(CLI::PositiveNumber);
+        ->check(kPositive);
     run->add_option("--out", run_.out, "Folder of the results (default: results/SCENE)");
     run->add_flag("--quiet", run_.quiet, "Print nothing but errors");
     run->callback([this] { action_ = [this] { return Run(run_, session_); }; });
@@ -146,7 +163,7 @@ class Program {
   void AddExport() {
     CLI::App* command = app_.add_subcommand("export", "Write one step's contact problem and its answer for other programs");
     command->add_option("input", export_.input, "Scene file (TOML) or problem file (.json)")->required();
-    command->add_option("--step", export_.step, "Step of the scene")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--step", export_.step, "Step of the scene")->check(kPositive)->capture_default_str();
     command->add_option("--fclib", export_.fclib, "File to write in FCLib's HDF5 format");
     command->add_option("--json", export_.json, "File to write for `nscdd solve`");
     command->add_option("--adapter", export_.adapter, "Platform: box2d or reference");
@@ -168,14 +185,13 @@ class Program {
                          "kinetic_energy, wall_force, wall_force_x, wall_force_y or flow_rate")->capture_default_str();
     tradeoff->add_option("--accuracy", tradeoff_.accuracy, "What whole runs are ranked by: nat, nat_max or interpenetration")
         ->capture_default_str();
-    tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(CLI::PositiveNumber);
-    tradeoff->add_option("--steps", tradeoff_.steps, "Steps of the runs (default: the scene's, at most 100)")
-        ->check(CLI::PositiveNumber);
+    tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(kPositive);
+    tradeoff->add_option("--steps", tradeoff_.steps, "Steps of the runs (default: the scene's, at most 100)")->check(kPositive);
     tradeoff->add_option("--problems", tradeoff_.problems, "Steps whose problems all settings solve (default 20)")
-        ->check(CLI::PositiveNumber);
-    tradeoff->add_option("--repetitions", tradeoff_.repetitions, "Passes for the time (default 5)")->check(CLI::NonNegativeNumber);
+        ->check(kPositive);
+    tradeoff->add_option("--repetitions", tradeoff_.repetitions, "Passes for the time (default 5)")->check(kNotNegative);
     tradeoff->add_option("--time-limit", tradeoff_.time_limit, "Seconds that the measurement may take (default 600)")
-        ->check(CLI::PositiveNumber);
+        ->check(kPositive);
     tradeoff->add_option("--out", tradeoff_.out, "Folder of the results (default: results/SCENE_tradeoff)");
     tradeoff->add_flag("--cold", tradeoff_.cold, "Solve the recorded problems from zero impulses");
     tradeoff->add_flag("--quick", tradeoff_.quick, "A short list: 5 steps, 3 problems, 1 repetition, a minute at most");

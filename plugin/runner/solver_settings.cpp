@@ -65,6 +65,12 @@ SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, cons
   const std::string file = scene.file.string();
   const bool from_scene = request.solver.empty();
   choice.name = from_scene ? scene.solver.name : request.solver;
+  if (choice.name == "auto") {
+    throw Error(
+        fmt::format("{}solver 'auto' chooses while a scene runs, it works with `nscdd run` and `check` only; name one of the "
+                    "solvers with --solver, or in the scene",
+                    from_scene ? fmt::format("{}:{}: ", file, scene.solver.line) : ""));
+  }
   const nscdd_solver_info* solver = nullptr;
   try {
     solver = registry.Find(choice.name).info;

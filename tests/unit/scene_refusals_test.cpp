@@ -227,8 +227,8 @@ TEST(SceneRefusals, AFileWithoutRowsIsNamed) {
 }
 
 TEST(SceneRefusals, AMissingSceneIsNamed) {
-  EXPECT_NE(Refusal("no_such_scene.toml").find("no_such_scene.toml: there is no such scene file"), std::string::npos);
-  EXPECT_NE(Refusal(SampleScenes()).find("there is no such scene file"), std::string::npos) << "a folder";
+  EXPECT_NE(Refusal("no_such_scene.toml").find("no_such_scene.toml: there is no such file"), std::string::npos);
+  EXPECT_NE(Refusal(SampleScenes()).find("is a folder"), std::string::npos) << "a folder";
 }
 
 TEST(SceneRefusals, TheBaseOfTheTableIsGood) {

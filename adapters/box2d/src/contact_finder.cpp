@@ -60,8 +60,8 @@ void ContactFinder::CheckPeriod(double alert) const {
     if (r.kind == BodyKind::kFree) {
       if (2.0 * r.bounding_radius + alert < period_) continue;
       throw Error(
-          fmt::format("Box2D body {} is {} m wide and would touch its own image: make the period {} m longer than that and the "
-                      "alert distance {} m.",
+          fmt::format("Box2D body {} is {} m wide and would touch its own image: the period, {} m, must be longer than that "
+                      "and the alert distance of {} m together.",
                       id, 2.0 * r.bounding_radius, period_, alert));
     }
     for (std::int32_t i = r.first_shape; i < r.first_shape + r.shape_count; ++i) {

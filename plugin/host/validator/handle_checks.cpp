@@ -120,13 +120,15 @@ void LeavesMpiAlone(const std::string& path) {
   const auto library = PluginLibrary::Load(path);
   // Through the plugin's own dependencies; null when it uses no MPI.
   const auto initialized = reinterpret_cast<int (*)(int*)>(library->FindSymbol("MPI_Initialized"));
+  int before = 0;  // not 0 where this program was started by mpirun
+  if (initialized != nullptr) initialized(&before);
   ForEachSolver(*library, [&](const std::string& name) {
     TwoDiskHost host;
     Solver solver = MakeSolver(library, name, &host);
     solver.Step(kTimeStep);
     int started = 0;
     if (initialized != nullptr) initialized(&started);
-    Expect(started == 0, "it initialised MPI though distributed is 0; leave that to the host");
+    Expect(started == before, "it initialised MPI though distributed is 0; leave that to the host");
   });
 }
 

@@ -51,6 +51,7 @@ class SceneRun {
     if (plan_.record.checkpoint_every > 0) BeginCheckpoints();
     const Ending ending = StepsOrHint();
     if (ending == Ending::kInterrupted) return SayHowToResume();
+    if (ending == Ending::kNotConverged) folder_->Count("stopped_at_step", summary_.last.step);
     CloseResults();
     PrintSummary(ending == Ending::kNotConverged);
     return ending == Ending::kNotConverged ? 3 : 0;
@@ -187,12 +188,14 @@ SceneRun::Ending SceneRun::Steps() {
     platform_->SetGravity(GravityAt(plan_.scene.gravity, step, dt));
     solver_->Step(dt);
     const StepReport report = solver_->Report();
-    const StepRow row = MakeStepRow(report);
+    StepRow row = MakeStepRow(report);
+    if (plan_.pilot && plan_.pilot->is_fixed() && report.solve.status == SolveStatus::kIterationLimit)
+      row.status = "incomplete";
     folder_->KeepParts();
     csv_->Append(row);
     summary_.Add(row);
     bar.Update(row);
-    const bool good = report.solve.status == SolveStatus::kConverged || report.solve.status == SolveStatus::kIncomplete;
+    const bool good = row.status == "converged" || row.status == "incomplete";
     const bool stop = !good && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
     if (step == done() + 1) {
       summary_.unknowns_per_contact = report.solve.unknowns_per_contact;

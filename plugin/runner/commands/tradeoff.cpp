@@ -87,7 +87,10 @@ void TradeoffCommand::Prepare() {
   scene_ = ReadSceneFile(request_.scene);
   CheckIds(scene_);
   registry_.Add(FindPlugin(request_.solver.plugin));
-  choice_ = ChooseSolver(scene_, request_.solver, registry_);
+  // A scene for solver "auto" has no setting of its own yet: its front is what is measured here.
+  SolverRequest own = request_.solver;
+  if (scene_.solver.name == "auto") own.solver = "nscd";
+  choice_ = ChooseSolver(scene_, own, registry_);
   accuracy_ = ParseAccuracy(request_.accuracy);
   plan_.scene = &scene_;
   plan_.registry = &registry_;
@@ -133,6 +136,9 @@ void TradeoffCommand::MakeSettings() {
   std::vector<Setting> list = request_.settings.empty() ? DefaultSettings() : ReadSettings(request_.settings);
   if (request_.quick && request_.settings.empty()) std::erase_if(list, [](const Setting& s) { return !s.quick; });
   settings_.insert(settings_.end(), list.begin(), list.end());
+  for (const std::string& solver : request_.solvers) {
+    if (solver != "box2d") registry_.Find(solver);  // throws, naming those that there are
+  }
   if (!request_.solvers.empty()) {
     std::erase_if(settings_, [&](const Setting& s) {
       return s.name != kSceneSetting &&

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nscdd/error.h"
+#include "scene/names.h"
 #include "scene/utf8.h"
 
 namespace nscdd {
@@ -23,6 +24,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : name_(path.string()) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+      throw Error(fmt::format("{}: is a folder; give a problem file (JSON)", name_));
     std::ifstream in(path);
     if (!in) throw Error(fmt::format("{}: the file cannot be opened; check the path", name_));
     try {
@@ -31,6 +35,7 @@ class Reader {
       throw Error(fmt::format("{}: not valid JSON: {}", name_, Printable(e.what())));
     }
     if (!json_.is_object()) Refuse("the file", "is not an object; write {\"dt\": ..., \"bodies\": [...], ...}");
+    RefuseMisspeltKeys();
   }
 
   [[noreturn]] void Refuse(const std::string& where, const std::string& what) const {
@@ -69,7 +74,7 @@ class Reader {
   /// The same, optional, with `count` rows, one for each `what`.
   std::vector<std::vector<double>> TableOf(const char* key, std::size_t columns, std::size_t count, const char* what) const {
     auto rows = Table(key, columns, true);
-    if (!rows.empty() && rows.size() != count) {
+    if (json_.contains(key) && rows.size() != count) {
       Refuse(fmt::format("key '{}'", key), fmt::format("has {} rows; it needs one for each {}, {} in all", rows.size(), what, count));
     }
     return rows;
@@ -86,6 +91,18 @@ class Reader {
   const Json& json() const { return json_; }
 
  private:
+  /// Other keys may be there (a stored solution, say), but not one that looks like a key that would be read.
+  void RefuseMisspeltKeys() const {
+    static const std::vector<std::string> known = {"dt",       "theta",  "gravity", "mu",   "bodies",
+                                                   "contacts", "planes", "forces",  "arms", "sites"};
+    for (const auto& [key, value] : json_.items()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      const std::string nearest = NearestName(key, known);
+      if (!nearest.empty())
+        Refuse(fmt::format("key '{}'", Printable(key)), fmt::format("is not known; did you mean '{}'?", nearest));
+    }
+  }
+
   double ToNumber(const Json& value, const std::string& where) const {
     if (!value.is_number()) Refuse(where, fmt::format("holds {} where a number is needed", value.type_name()));
     const double number = value.get<double>();

@@ -15,8 +15,9 @@ namespace nscdd {
 ///   `planes`   rows nx ny d: the half-plane n.x >= d is free,
 ///   `contacts` rows i j nx ny gap l_i l_j b_n [...]: the normal leads from j to i, j < 0 names plane -1 - j; what follows in a
 ///              row (a stored solution, say) is not read,
-///   and if wanted: `forces`, rows fx fy torque of each body beside gravity; `arms`, rows jx jy ix iy of each contact, of the bodies
-///   that are no centred disks; `sites`, rows x y of each contact, which place it in a subdomain.
+///   and if wanted: `forces`, rows fx fy torque of each body beside gravity; `arms`, rows jx jy ix iy of each contact, of the
+///   bodies that are no centred disks; `sites`, rows x y of each contact, which place it in a subdomain. Other keys are not
+///   read; one that looks like a misspelt one of these is refused.
 /// In the problem body A of a contact is j and body B is i; planes are prescribed bodies behind the others.
 struct ProblemFile {
   ContactProblem problem;

@@ -89,6 +89,12 @@ void RefuseToLoseCheckpoints(const fs::path& folder) {
 
 [[noreturn]] void RefuseFinished(const fs::path& folder, const nlohmann::json& marker) {
   const std::string steps = marker.value("/settings/steps"_json_pointer, std::string("all"));
+  if (marker.contains("/summary/stopped_at_step"_json_pointer)) {
+    throw Error(
+        fmt::format("the run in {} stopped for good at step {} of {}, which did not converge (solver.on_nonconvergence = "
+                    "\"stop\"): begin it anew with other settings.",
+                    folder.string(), marker["summary"]["stopped_at_step"].dump(), steps));
+  }
   throw Error(fmt::format("the run in {} has finished ({} steps): there is nothing to resume.", folder.string(), steps));
 }
 

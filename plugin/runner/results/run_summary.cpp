@@ -116,8 +116,10 @@ std::string Warnings(const RunSummary& s) {
                         first.worst_body_b, first.reason.empty() ? "" : ": " + first.reason);
   }
   if (s.status_count[kIncomplete] > 0) {
-    text += fmt::format("INCOMPLETE: in {} the subdomains were solved, not the sample (nat up to {:.2e}), as this solver does\n",
-                        Plural(s.status_count[kIncomplete], "step"), s.max_nat);
+    text += fmt::format(
+        "INCOMPLETE: in {} the subdomains were solved alone, or a fixed number of iterations made (nat up to {:.2e}), as this "
+        "solver does\n",
+        Plural(s.status_count[kIncomplete], "step"), s.max_nat);
   }
   if (s.steps_beyond_alert > 0) {
     text += fmt::format(

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -30,6 +31,17 @@ bool IsPlainName(const std::string& name) {
 
 void CheckName(const TableReader& table, std::string_view key, const std::string& name) {
   if (!IsPlainName(name)) table.Refuse(key, fmt::format("is '{}'; use only letters, digits, '_', '-' and '.'", name));
+}
+
+/// The folder of the results holds files of the run too.
+void CheckPackingName(const TableReader& table, const std::string& name) {
+  CheckName(table, "packing", name);
+  const std::filesystem::path path = name;
+  constexpr std::array kTaken = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf", "run.json"};
+  const bool is_taken = std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end();
+  if (is_taken || path.extension() == ".part" || path.extension() == ".ckpt") {
+    table.Refuse("packing", fmt::format("is '{}', a name of the run's own files; give another one, such as packing.csv", name));
+  }
 }
 
 void ReadHead(TableReader* root, Scene* scene) {
@@ -169,7 +181,7 @@ void ReadOutput(TableReader* root, Scene* scene) {
   if (table->Has("checkpoint_every")) scene->output.checkpoint_every = table->Integer("checkpoint_every", 1, {}, kMostSteps);
   if (table->Has("packing")) {
     scene->output.packing = table->Text("packing");
-    CheckName(*table, "packing", scene->output.packing);
+    CheckPackingName(*table, scene->output.packing);
   }
   table->Finish();
 }

@@ -22,7 +22,8 @@ constexpr std::uintmax_t kLargestFile = 64u << 20;  // [bytes]; more disks than 
 std::string ReadTomlText(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(fmt::format("{}: there is no such scene file; check the name.", path.string()));
+    const char* what = std::filesystem::exists(path, error) ? "is a folder or a device, not a file" : "there is no such file";
+    throw Error(fmt::format("{}: {}; check the name.", path.string(), what));
   }
   if (std::filesystem::file_size(path, error) > kLargestFile) {
     throw Error(
