@@ -8,6 +8,7 @@
 
 #include "auto/front_file.h"
 #include "auto/ladder.h"
+#include "auto/pilot_state.h"
 #include "auto/watcher.h"
 #include "nscdd/error.h"
 #include "nscdd/host/plugin_library.h"
@@ -153,6 +154,25 @@ TEST_F(AutoFront, BeginsWithTheCheapestThatServes) {
   EXPECT_EQ(names(Depth(1e-3), "", 1).substr(2), "nnn");  // then the built-in ones that converge
   EXPECT_EQ(MakeLadder(Depth(1e-3), "3x3", 1, front, "f", registry_).origin, "safe defaults");
   EXPECT_EQ(MakeLadder(Depth(1e-3), "", 1, front, "f", registry_).origin, "f");
+}
+
+TEST(AutoState, ReadsBackAndRefusesCountsThatAreNone) {
+  PilotState state;
+  state.ladder.rungs.resize(2);
+  state.choices.resize(2);
+  state.rung = 1;
+  state.watcher.depth = 2.5e-3;
+  state.watcher.steps = 7;
+  const std::string text = FormatPilotState(state);
+  const PilotState read = ParsePilotState(text);
+  EXPECT_EQ(read.rung, 1u);
+  EXPECT_EQ(read.watcher.depth, 2.5e-3);
+  EXPECT_EQ(read.watcher.steps, 7);
+  for (const char* bad : {"1e300", "-1.5", "2", "\"1\"", "null"}) {
+    std::string other = text;
+    other.replace(other.find("\"rung\":1"), 8, std::string("\"rung\":") + bad);
+    EXPECT_THROW(ParsePilotState(other), Error) << bad;
+  }
 }
 
 }  // namespace

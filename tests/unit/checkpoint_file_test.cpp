@@ -123,6 +123,9 @@ TEST(Checkpoint, AFittingChecksumDoesNotMakeItRight) {
 TEST(Checkpoint, HeadsThatAreNone) {
   std::string text = FormatHead(SampleHead(40));
   for (const char* bad : {"", "null", "[]", "{}", R"({"step": -1})"}) EXPECT_NE(SentenceOf([&] { ParseHead(bad); }), "") << bad;
+  std::string float_text = text;
+  float_text.replace(text.find("\"step\":40"), 9, "\"step\":4e99");
+  EXPECT_NE(SentenceOf([&] { ParseHead(float_text); }).find("no integer"), std::string::npos);
   EXPECT_NE(SentenceOf([&] { ParseHead(text.replace(text.find("\"step\":40"), 9, "\"step\":-4")); }), "");
 }
 

@@ -18,8 +18,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckpointHead, run, pilot, step, ranks, tabl
 std::string FormatHead(const CheckpointHead& head) { return nlohmann::json(head).dump(); }
 
 CheckpointHead ParseHead(const std::string& text) {
+  // All numbers of a head are integers; the library would convert 1e300 to one, which is undefined.
+  const auto is_sound = [](int, nlohmann::json::parse_event_t, const nlohmann::json& value) {
+    if (value.is_number_float()) throw Error("its description has a number that is no integer");
+    return true;
+  };
   try {
-    const auto head = nlohmann::json::parse(text).get<CheckpointHead>();
+    const auto head = nlohmann::json::parse(text, is_sound).get<CheckpointHead>();
     if (head.step < 0 || head.ranks < 1 || head.run.steps < 1) throw Error("its counters make no sense");
     return head;
   } catch (const nlohmann::json::exception& e) {
