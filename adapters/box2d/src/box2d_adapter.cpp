@@ -40,11 +40,16 @@ class Box2dAdapter::Impl final : public BodyTransport {
         store(world, options.metres_per_unit),
         finder(&store, options.period, options.period_origin) {}
 
-  std::int32_t SlotOf(std::int64_t id, const char* task) {
-    store.DropDestroyedIfAny();
+  std::int32_t SlotOf(std::int64_t id, const char* task) const {
     const std::int32_t slot = store.SlotOf(id);
     if (slot < 0) throw Error(fmt::format("{} names body {}, which the b2World does not hold.", task, id));
     return slot;
+  }
+
+  /// For the user, who may have destroyed the body a moment ago.
+  std::int32_t LivingSlotOf(std::int64_t id, const char* task) {
+    store.DropDestroyedIfAny();
+    return SlotOf(id, task);
   }
 
   void Pack(std::int64_t id, std::vector<std::byte>* bytes) override {
@@ -248,12 +253,12 @@ std::optional<std::int64_t> Box2dAdapter::IdOf(const b2Body* body) const {
 
 void Box2dAdapter::SetPose(std::int64_t id, const Pose& pose) {
   impl_->host.CheckUnlocked();
-  impl_->store.SetPose(impl_->SlotOf(id, "SetPose"), pose);
+  impl_->store.SetPose(impl_->LivingSlotOf(id, "SetPose"), pose);
 }
 
 void Box2dAdapter::SetVelocity(std::int64_t id, const Twist& velocity) {
   impl_->host.CheckUnlocked();
-  const std::int32_t slot = impl_->SlotOf(id, "SetVelocity");
+  const std::int32_t slot = impl_->LivingSlotOf(id, "SetVelocity");
   if (impl_->store.record(slot).body->GetType() == b2_staticBody) {
     throw Error(fmt::format("Box2D body {} is static and cannot have a velocity: make it kinematic.", id));
   }
@@ -263,7 +268,7 @@ void Box2dAdapter::SetVelocity(std::int64_t id, const Twist& velocity) {
 void Box2dAdapter::SetGravity(Vec2 gravity) { impl_->host.SetGravity(gravity); }
 
 void Box2dAdapter::AddLoad(std::int64_t id, const Wrench& load) {
-  Wrench& sum = impl_->store.record(impl_->SlotOf(id, "AddLoad")).added_load;
+  Wrench& sum = impl_->store.record(impl_->LivingSlotOf(id, "AddLoad")).added_load;
   sum = {sum.fx + load.fx, sum.fy + load.fy, sum.torque + load.torque};
   impl_->has_added_load = true;
 }
