@@ -184,17 +184,19 @@ TEST(MovingWall, HostMayStopIt) {
   EXPECT_NEAR(host.body(1).pose.y, y + 0.1, 1e-12);
 }
 
-// A wall stands where its host has it, also outside of the period and at its end; free bodies are wrapped.
-TEST(MovingWall, IsNotWrappedIntoThePeriod) {
+// A wall that stands is left where its host has it, also outside of the period and at its end; what moves is wrapped.
+TEST(StandingWall, IsNotWrappedIntoThePeriod) {
   Host host({}, Exact());
   host.world.period = 10.0;
   host.world.gravity = {0.0, -kG};
   reference::Body& floor = AddSegment(&host, 0, 5.0, 0.3);
   floor.pose.x = 15.0;
-  floor.velocity.vx = 1.0;
+  AddSegment(&host, 2, 1.0, 0.3).pose = {9.995, -3.0, 0.0};
+  host.body(2).velocity.vx = 1.0;
   host.AddDisk(1, {9.9, 0.5}, 0.5, 0.3).velocity.vx = 30.0;
   host.Step(kDt);
-  EXPECT_DOUBLE_EQ(host.body(0).pose.x, 15.0 + kDt);
+  EXPECT_EQ(host.body(0).pose.x, 15.0);
+  EXPECT_NEAR(host.body(2).pose.x, 0.005, 1e-12);
   EXPECT_LT(host.body(1).pose.x, 1.0);
   EXPECT_NEAR(host.body(1).pose.y, 0.5, 1e-12) << "the floor holds it";
 }

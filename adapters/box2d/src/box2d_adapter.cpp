@@ -27,6 +27,11 @@ void CheckOptions(const b2World* world, const Box2dOptions& options) {
     throw Error(fmt::format("Box2dOptions::period = {} from {} is refused: give a finite length >= 0 in metres.",
                             options.period, options.period_origin));
   }
+  if (options.period > 0.0 && std::abs(options.period_origin) > 1e9 * options.period) {
+    throw Error(
+        fmt::format("Box2dOptions::period = {} from {} is refused: rounding swallows the period there, begin it nearer to 0.",
+                    options.period, options.period_origin));
+  }
 }
 
 }  // namespace

@@ -24,6 +24,12 @@ bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 
 }  // namespace
 
+void CheckPeriod(const AdapterDescription& adapter) {
+  if (std::abs(adapter.period_origin) <= 1e9 * adapter.period || adapter.period == 0.0) return;
+  Refuse(adapter, "Describe", "the period of {} m begins at {} m, where rounding swallows it; begin it nearer to 0",
+         adapter.period, adapter.period_origin);
+}
+
 void CheckBodies(const BodyTable& t, const AdapterDescription& adapter) {
   const auto refuse = [&](std::size_t i, const char* what) {
     Refuse(adapter, "ReadBodies", "body {} has {}", t.id[i], what);

@@ -9,6 +9,9 @@
 
 namespace nscdd {
 
+/// Throws Error when the period begins so far from 0 that rounding swallows it.
+void CheckPeriod(const AdapterDescription& adapter);
+
 /// Throws Error, naming the adapter, its function and the body or contact, when a table breaks the contract of
 /// platform_adapter.h: lengths of columns, ids, finite numbers, positive masses.
 void CheckBodies(const BodyTable& bodies, const AdapterDescription& adapter);

@@ -51,6 +51,7 @@ class TimeStepper::Impl {
       CheckStepping(stepping);
       CheckAlgorithm(algorithm);
       description_ = adapter->Describe();
+      CheckPeriod(description_);
       const int ranks = communicator->size(), subdomains = partition_.nx * partition_.ny;
       Require(ranks <= subdomains,
               fmt::format("{} ranks share {} subdomain{}; a rank needs at least one: start at most {} or ask for more subdomains",
@@ -97,10 +98,8 @@ class TimeStepper::Impl {
   bool IsFree(std::size_t row) const { return bodies().kind[row] == BodyKind::kFree; }
   int HomeOf(const Pose& q) const { return grid_.CellOf(Centre(q)); }
 
-  /// Free bodies are wrapped into the period; a wall stays where its host has it.
-  Pose Drift(std::size_t row, const Pose& q, const Twist& v, double dt) const {
-    const double x = q.x + dt * v.vx;
-    return {IsFree(row) ? grid_.Wrap(x) : x, q.y + dt * v.vy, q.angle + dt * v.spin};
+  Pose Drift(const Pose& q, const Twist& v, double dt) const {
+    return {grid_.Wrap(q.x + dt * v.vx), q.y + dt * v.vy, q.angle + dt * v.spin};
   }
 
   void Distribute(double dt);
@@ -169,7 +168,7 @@ void TimeStepper::Impl::Distribute(double dt) {
   if (description_.period > 0.0 && step_ == 0) grid_.SetPeriod(description_.period_origin, description_.period);
   const auto drift_all = [&] {
     detection_.resize(rows());
-    for (std::size_t i = 0; i < rows(); ++i) detection_[i] = Drift(i, bodies().pose[i], bodies().velocity[i], half);
+    for (std::size_t i = 0; i < rows(); ++i) detection_[i] = Drift(bodies().pose[i], bodies().velocity[i], half);
   };
   drift_all();
   Reach reach;
@@ -371,8 +370,10 @@ void TimeStepper::Impl::Advance(double dt) {
   for (std::size_t i = 0; i < rows(); ++i) {
     if (!distribution_.Owns(i)) continue;
     const BodyTable& t = bodies();
-    outcome_.bodies.push_back({t.id[i], t.kind[i], t.radius[i], Drift(i, detection_[i], velocity_[i], half), velocity_[i],
-                               sharing_.Multiplicity(i), HomeOf(detection_[i])});
+    Pose end = Drift(detection_[i], velocity_[i], half);
+    if (!IsFree(i) && velocity_[i].vx == 0.0) end.x = t.pose[i].x;  // a standing wall stays where its host has it
+    outcome_.bodies.push_back(
+        {t.id[i], t.kind[i], t.radius[i], end, velocity_[i], sharing_.Multiplicity(i), HomeOf(detection_[i])});
   }
   Summarise(dt);
   RunTogether(communicator_, [&] { outcome_.Commit(adapter_); });

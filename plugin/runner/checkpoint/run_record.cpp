@@ -28,7 +28,7 @@ CheckpointHead ParseHead(const std::string& text) {
     if (head.step < 0 || head.ranks < 1 || head.run.steps < 1) throw Error("its counters make no sense");
     return head;
   } catch (const nlohmann::json::exception& e) {
-    throw Error(fmt::format("its description cannot be read ({})", e.what()));
+    throw Error(fmt::format("its description cannot be read ({})", std::string_view(e.what()).substr(0, 200)));
   }
 }
 
