@@ -112,6 +112,11 @@ void ContactFinder::PlaceBodies(const PoseView& poses) {
     upper_y = std::max(upper_y, q.y);
   }
   placement_.slack = 1e-14 * (farthest + std::abs(period_origin_));
+  if (period_ > 0.0 && placement_.slack > 1e-3 * period_) {
+    throw Error(
+        fmt::format("A Box2D body is {} m away from 0, where rounding swallows the period of {} m: bring it back or remove it.",
+                    farthest, period_));
+  }
   const bool is_any_free = lower_x <= upper_x;
   middle_ = is_any_free ? Vec2{0.5 * (lower_x + upper_x), 0.5 * (lower_y + upper_y)} : Vec2{};
   half_extent_ = is_any_free ? 0.5 * std::max(upper_x - lower_x, upper_y - lower_y) : 0.0;
