@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # ./demo.sh   installs what is missing, builds, and solves 730 packed disks in a box under rotating gravity: first on one
 # domain, then on two subdomains by two MPI processes. Draws a picture of each.
 set -euo pipefail

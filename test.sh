@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # ./test.sh [PRESET]   installs what is missing, builds the preset and runs all tests.
 # PRESET: release (the default), dev, audit, asan or fuzz; see CMakePresets.json.
 set -euo pipefail

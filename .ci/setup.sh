@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by demo.sh and test.sh, from the project's root: what both need before they can start.
 
 debian_packages=(

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/callback/callback_adapter.h"
 
 #include <fmt/format.h>
@@ -61,9 +62,10 @@ void CheckColumns(const StepResult& result) {
       result.impulse.size() == result.key.size()) {
     return;
   }
-  throw Error(fmt::format("Commit got {} ids, {} poses, {} velocities, {} contact keys and {} impulses; give one pose and velocity "
-                          "for each id and one impulse for each key",
-                          result.id.size(), result.pose.size(), result.velocity.size(), result.key.size(), result.impulse.size()));
+  throw Error(
+      fmt::format("Commit got {} ids, {} poses, {} velocities, {} contact keys and {} impulses; give one pose and velocity "
+                  "for each id and one impulse for each key",
+                  result.id.size(), result.pose.size(), result.velocity.size(), result.key.size(), result.impulse.size()));
 }
 
 void CheckFinite(const StepResult& result) {

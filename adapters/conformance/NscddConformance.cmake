@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # nscdd_add_conformance_tests(TARGET <executable> [PREFIX <name>] [EXCEPT <check>...] [BROKEN] [SEED <number>])
 #
 # Registers every conformance check as a test of its own, named <PREFIX>.<check> (PREFIX: conformance.<executable> if not given).

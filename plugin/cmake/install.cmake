@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake --install: headers, libraries, the plugin, the program, the scenes, and what find_package(nscdd) reads.
 # The plugin and the program say themselves where they go.
 set(NSCDD_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/nscdd)

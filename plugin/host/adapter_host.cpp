@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/host/adapter_host.h"
 
 #include "layout.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Prints the first line of the MPI library's version; allowed without MPI_Init. */
 #include <mpi.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # NSCDD_MPI_LIBRARY: first line of MPI_Get_library_version of the MPI that this build uses. Plugin and host carry it, so that a
 # plugin built with another MPI is recognised before a communicator crosses. Give it by hand when cross-compiling.
 if(NOT NSCDD_MPI_LIBRARY)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* nscdd solver plugins: the C11 interface between a host program (a physics engine, a DEM code) and a contact solver.
  *
  * A plugin is a shared library with ONE exported symbol, nscdd_plugin_entry, of type nscdd_plugin_entry_function. It returns a
@@ -34,9 +35,9 @@ extern "C" {
 
 typedef enum nscdd_result {
   NSCDD_OK = 0,
-  NSCDD_BAD_INPUT = 1,  /* what the caller gave cannot be used */
-  NSCDD_FAILED = 2,     /* the callee or something below it failed (no memory, MPI, a host callback) */
-  NSCDD_BAD_CALL = 3    /* null pointer, wrong order of calls, truncated structure */
+  NSCDD_BAD_INPUT = 1, /* what the caller gave cannot be used */
+  NSCDD_FAILED = 2,    /* the callee or something below it failed (no memory, MPI, a host callback) */
+  NSCDD_BAD_CALL = 3   /* null pointer, wrong order of calls, truncated structure */
 } nscdd_result;
 
 /* First member of every structure that may grow. */
@@ -63,34 +64,34 @@ typedef struct nscdd_bodies {
 } nscdd_bodies;
 
 /* Candidate contacts, one entry each, sorted by (id of A, id of B, shape_a, shape_b, image), none twice, id of A < id of B.
- * n is the unit normal from A to B, t = (n_y, -n_x); impulses (n, t) act on B, their opposite on A; velocities are of B minus A.
- * The impulse acts on A at centre + arm_a + lever_a n, on B at centre (moved by image periods) + arm_b - lever_b n; arms lead to
- * the centre of the disk in contact, or to the touched point of any other shape (whose lever is 0). Two disks:
- * lever = radius + gap / 2. Disk and another wall: lever of the disk = radius + gap. */
+ * n is the unit normal from A to B, t = (n_y, -n_x); impulses (n, t) act on B, their opposite on A; velocities are of B minus
+ * A. The impulse acts on A at centre + arm_a + lever_a n, on B at centre (moved by image periods) + arm_b - lever_b n; arms
+ * lead to the centre of the disk in contact, or to the touched point of any other shape (whose lever is 0). Two disks: lever =
+ * radius + gap / 2. Disk and another wall: lever of the disk = radius + gap. */
 typedef struct nscdd_contacts {
   uint64_t count;
   const int32_t* a; /* row of A in the poses given to detect_contacts */
   const int32_t* b;
   const int32_t* shape_a; /* numbered by the platform, stable */
   const int32_t* shape_b;
-  const int32_t* image;   /* B is seen at x + image * period; null when not periodic */
-  const double* gap;      /* [m], negative when the shapes overlap */
-  const double* normal;   /* 2 per contact */
-  const double* lever_a;  /* [m] */
+  const int32_t* image;  /* B is seen at x + image * period; null when not periodic */
+  const double* gap;     /* [m], negative when the shapes overlap */
+  const double* normal;  /* 2 per contact */
+  const double* lever_a; /* [m] */
   const double* lever_b;
   const double* arm_a; /* 2 per contact [m]; both null when all arms are zero */
   const double* arm_b;
-  const double* site;         /* 2 per contact [m]: mid-point of the two disk centres, or the touched point of another wall
-                               * (the disk's centre where that is deeper than its radius behind the wall) */
-  const uint8_t* flat;        /* 1: one side is flat at the contact */
-  const double* friction;     /* [-] >= 0 */
-  const double* restitution;  /* [-] in [0, 1] */
+  const double* site;        /* 2 per contact [m]: mid-point of the two disk centres, or the touched point of another wall
+                              * (the disk's centre where that is deeper than its radius behind the wall) */
+  const uint8_t* flat;       /* 1: one side is flat at the contact */
+  const double* friction;    /* [-] >= 0 */
+  const double* restitution; /* [-] in [0, 1] */
 } nscdd_contacts;
 
 /* What a finished step gives back: the bodies that this rank owns, the contacts that it solved. */
 typedef struct nscdd_step_result {
   uint64_t body_count;
-  const int64_t* id; /* ascending */
+  const int64_t* id;      /* ascending */
   const double* pose;     /* 3 per body, end of the step */
   const double* velocity; /* 3 per body, end of the step */
   uint64_t contact_count;
@@ -100,14 +101,14 @@ typedef struct nscdd_step_result {
 } nscdd_step_result;
 
 typedef struct nscdd_host_description {
-  const char* name;    /* lower case, for messages */
-  const char* version; /* of the platform behind it */
+  const char* name;           /* lower case, for messages */
+  const char* version;        /* of the platform behind it */
   int32_t distributed_bodies; /* 1: pack, insert and remove are there */
   int32_t prescribed_motion;  /* 1: prescribed bodies may have a velocity other than zero */
   int32_t clusters;           /* 1: free bodies may have arms */
   int32_t reserved;           /* 0 */
-  double period;        /* [m] length of the periodic direction x; 0: not periodic */
-  double period_origin; /* [m] */
+  double period;              /* [m] length of the periodic direction x; 0: not periodic */
+  double period_origin;       /* [m] */
 } nscdd_host_description;
 
 /* The platform. Every function gets `user` first; arrays that it hands out stay valid until the next call of the same function.

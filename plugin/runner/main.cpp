@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program `nscdd`. Exit codes: 0 fine; 2 bad input; 3 stopped because a step did not converge and the scene says to stop;
-// 4 told to end by a signal, can be resumed; 1 anything that no input should cause, such as a solver that `extremes` finds wrong
-// without a word.
+// 4 told to end by a signal, can be resumed; 1 anything that no input should cause, such as a solver that `extremes` finds
+// wrong without a word.
 
 #include <fmt/format.h>
 
@@ -41,9 +42,8 @@ const CLI::Validator kNotNegative = AtLeast(0.0, "from 0");
 /// An option whose text goes to the solver under `name`.
 void AddSolverOption(CLI::App* command, SolverRequest* request, const std::string& flag, const std::string& name,
                      const std::string& help) {
-  command->add_option_function<std::string>(flag, [request, name](const std::string& value) {
-    request->options.emplace_back(name, value);
-  }, help);
+  command->add_option_function<std::string>(
+      flag, [request, name](const std::string& value) { request->options.emplace_back(name, value); }, help);
 }
 
 void AddSolverOptions(CLI::App* command, SolverRequest* request) {
@@ -58,13 +58,16 @@ void AddSolverOptions(CLI::App* command, SolverRequest* request) {
   AddSolverOption(command, request, "--sweeps-per-stage", "sweeps_per_stage", "Sweeps per interface update (nscdd, fea, rea)");
   AddSolverOption(command, request, "--lambda", "lambda", "Search direction of the augmented interface (fea, rea, iea)");
   AddSolverOption(command, request, "--interface", "interface", "direct or cg (fea, rea, iea)");
-  command->add_option_function<std::vector<std::string>>("--option", [request](const std::vector<std::string>& pairs) {
-    for (const std::string& pair : pairs) {
-      const auto equals = pair.find('=');
-      if (equals == std::string::npos) throw CLI::ValidationError("--option", "write NAME=VALUE, not '" + pair + "'");
-      request->options.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
-    }
-  }, "Any other option of the solver, NAME=VALUE; may be repeated");
+  command->add_option_function<std::vector<std::string>>(
+      "--option",
+      [request](const std::vector<std::string>& pairs) {
+        for (const std::string& pair : pairs) {
+          const auto equals = pair.find('=');
+          if (equals == std::string::npos) throw CLI::ValidationError("--option", "write NAME=VALUE, not '" + pair + "'");
+          request->options.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+        }
+      },
+      "Any other option of the solver, NAME=VALUE; may be repeated");
 }
 
 class Program {
@@ -117,8 +120,8 @@ class Program {
     run->add_option("scene", run_.scene, "Scene file (TOML)");
     run->add_option("--resume", run_.resume, "Go on with the unfinished run in this folder, instead of a scene");
     AddSolverOptions(run, &run_.solver);
-    run->add_flag_callback("--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); },
-                           "Begin every step from zero impulses");
+    run->add_flag_callback(
+        "--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); }, "Begin every step from zero impulses");
     run->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
     run->add_option("--steps", run_.steps, "Number of steps in all, those before --resume included")->check(kPositive);
     run->add_option("--save-every", run_.save_every, "Save every K-th step in results.h5 (default: first and last)")
@@ -181,8 +184,11 @@ class Program {
     tradeoff->add_option("--adapter", tradeoff_.adapter, "Platform: box2d or reference");
     tradeoff->add_option("--solvers", tradeoff_.solvers, "Only settings of these solvers, as nscd,nscdd,box2d")->delimiter(',');
     tradeoff->add_option("--settings", tradeoff_.settings, "File of [[settings]] instead of the built-in list");
-    tradeoff->add_option("--observable", tradeoff_.observable, "Compared with the reference's: centre_of_mass_x, centre_of_mass_y, "
-                         "kinetic_energy, wall_force, wall_force_x, wall_force_y or flow_rate")->capture_default_str();
+    tradeoff
+        ->add_option("--observable", tradeoff_.observable,
+                     "Compared with the reference's: centre_of_mass_x, centre_of_mass_y, "
+                     "kinetic_energy, wall_force, wall_force_x, wall_force_y or flow_rate")
+        ->capture_default_str();
     tradeoff->add_option("--accuracy", tradeoff_.accuracy, "What whole runs are ranked by: nat, nat_max or interpenetration")
         ->capture_default_str();
     tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(kPositive);
@@ -230,7 +236,8 @@ class Program {
   }
 
   void AddExtremes() {
-    CLI::App* extremes = app_.add_subcommand("extremes", "Map where each solver holds: scenes at the edges, with a known truth");
+    CLI::App* extremes =
+        app_.add_subcommand("extremes", "Map where each solver holds: scenes at the edges, with a known truth");
     extremes->add_option("--plugin", extremes_.plugin, "Solver plugin");
     extremes->add_option("--solvers", extremes_.solvers, "Only these, such as nscd,nscdd/anderson,newton")->delimiter(',');
     extremes->add_option("--out", extremes_.out, "Folder of extremes.csv and extremes.png")->capture_default_str();

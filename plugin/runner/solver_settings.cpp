@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "solver_settings.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,8 @@ std::string SolversWith(const SolverRegistry& registry, const std::string& optio
   }
   std::vector<std::string> known;
   for (std::uint64_t i = 0; i < solver.option_count; ++i) known.emplace_back(solver.options[i].name);
-  throw Error(fmt::format("{}unknown option '{}' of solver '{}'; {}", where, name, solver.name, Suggestion(name, known, "options")));
+  throw Error(
+      fmt::format("{}unknown option '{}' of solver '{}'; {}", where, name, solver.name, Suggestion(name, known, "options")));
 }
 
 /// Lets the solver itself judge one option.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -14,9 +15,9 @@ using OptionList = std::vector<std::pair<std::string, std::string>>;
 
 /// What the command line says about the solver; empty strings and lists: nothing.
 struct SolverRequest {
-  std::string plugin;   ///< path of the library
-  std::string solver;   ///< name
-  OptionList options;   ///< override the scene's
+  std::string plugin;  ///< path of the library
+  std::string solver;  ///< name
+  OptionList options;  ///< override the scene's
 };
 
 /// Which solver a run uses, and how.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of the C interface and the one exported symbol.
 #include <algorithm>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "option_table.h"
 
 #include <fmt/format.h>
@@ -194,7 +195,8 @@ std::vector<Option> AccelerationTable() {
 }
 
 std::vector<Option> StageOptions() {
-  return {Integer("sweeps_per_stage", SweepsPerStage, kPositiveCount, "sweeps of each subdomain between two interface updates")};
+  return {
+      Integer("sweeps_per_stage", SweepsPerStage, kPositiveCount, "sweeps of each subdomain between two interface updates")};
 }
 
 std::vector<Option> InterfaceOptions() {
@@ -207,12 +209,11 @@ std::vector<Option> InterfaceOptions() {
           {"normal", "full", "sticking"},
           "active contacts in the interface problem: normals; and tangents; and tangents of sticking ones"),
       Choice<StatusCompatibility>(
-          "status_compatibility",
-          [](SolverSettings& s) -> StatusCompatibility& { return Interface(s).status_compatibility; },
+          "status_compatibility", [](SolverSettings& s) -> StatusCompatibility& { return Interface(s).status_compatibility; },
           {"same", "normal", "sticking"}, "contacts whose velocity enters the right-hand side, if other than in the matrix"),
       Choice<LocalVelocity>(
-          "local_velocity", [](SolverSettings& s) -> LocalVelocity& { return Interface(s).local_velocity; }, {"local", "current"},
-          "velocity in the search direction: what each local solve left, or that of now"),
+          "local_velocity", [](SolverSettings& s) -> LocalVelocity& { return Interface(s).local_velocity; },
+          {"local", "current"}, "velocity in the search direction: what each local solve left, or that of now"),
       Choice<LambdaScale>(
           "lambda_scale", [](SolverSettings& s) -> LambdaScale& { return Interface(s).lambda_scale; }, {"mass", "contact"},
           "what lambda multiplies: the reference mass, or 1 / W_nn of each contact"),
@@ -226,8 +227,8 @@ std::vector<Option> InterfaceOptions() {
           "interface", [](SolverSettings& s) -> InterfaceSolve& { return Interface(s).solve; }, {"direct", "cg"},
           "assembled and factorised, or by the conjugate gradient among neighbours"),
       Choice<LinearLibrary>(
-          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return Interface(s).linear_solver; }, {"auto", "eigen", "mumps"},
-          "auto is eigen; mumps needs mpirun"),
+          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return Interface(s).linear_solver; },
+          {"auto", "eigen", "mumps"}, "auto is eigen; mumps needs mpirun"),
       Choice<Preconditioner>(
           "preconditioner", [](SolverSettings& s) -> Preconditioner& { return Interface(s).preconditioner; },
           {"none", "diagonal", "lumped", "dirichlet"}, "of interface = cg"),
@@ -249,22 +250,25 @@ std::vector<Option> FeaOptionTable() {
 std::vector<Option> NewtonOptionTable() {
   return {
       Real(
-          "interior_residual", "-", [](SolverSettings& s) -> double& { return std::get<NewtonOptions>(s.algorithm).interior_residual; },
-          kNotNegative, "nat_max at which the interior point stage ends; 1e-5 where nat_max 1e-8 is wanted"),
+          "interior_residual", "-",
+          [](SolverSettings& s) -> double& { return std::get<NewtonOptions>(s.algorithm).interior_residual; }, kNotNegative,
+          "nat_max at which the interior point stage ends; 1e-5 where nat_max 1e-8 is wanted"),
       Integer(
           "interior_iterations",
-          [](SolverSettings& s) -> int& { return std::get<NewtonOptions>(s.algorithm).interior_iterations; }, Range{0, 2147483647},
-          "limit of the interior point stage"),
+          [](SolverSettings& s) -> int& { return std::get<NewtonOptions>(s.algorithm).interior_iterations; },
+          Range{0, 2147483647}, "limit of the interior point stage"),
       Choice<LinearLibrary>(
-          "linear_solver", [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).linear_solver; },
+          "linear_solver",
+          [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).linear_solver; },
           {"auto", "eigen", "mumps"}, "auto is our block LU; mumps needs mpirun"),
   };
 }
 
 std::vector<Option> ReaOptionTable() {
   return {Integer(
-      "max_interface_updates", [](SolverSettings& s) -> int& { return std::get<ReaOptions>(s.algorithm).max_interface_updates; },
-      kPositiveCount, "interface updates before the subdomains are solved by themselves")};
+      "max_interface_updates",
+      [](SolverSettings& s) -> int& { return std::get<ReaOptions>(s.algorithm).max_interface_updates; }, kPositiveCount,
+      "interface updates before the subdomains are solved by themselves")};
 }
 
 std::vector<Option> IeaOptionTable() {

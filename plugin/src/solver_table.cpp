@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "solver_table.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,8 @@ std::vector<SolverEntry> MakeTable() {
        {{}, IeaOptions{}},
        Join(PartitionOptionTable(), InterfaceOptions(), IeaOptionTable())},
       {"newton",
-       "high accuracy with friction: interior point, then proximal Newton iterations, one sparse factorisation each; one subdomain",
+       "high accuracy with friction: interior point, then proximal Newton iterations, one sparse factorisation each; one "
+       "subdomain",
        {{}, NewtonOptions{}},
        Join(NewtonOptionTable())},
   };

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Settles the packings of ../packings again and compares them bit for bit.
 #     regenerate.sh NSCDD            compares
 #     regenerate.sh NSCDD --write    replaces them

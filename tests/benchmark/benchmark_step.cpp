@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene's whole steps on one core: ours through the Box2D adapter beside Box2D's own Step. README.md explains the columns.
 #include <fmt/format.h>
 
@@ -167,8 +168,9 @@ Entry AcceleratedNat(const std::string& tolerance) {
 }
 
 std::vector<Entry> Entries() {
-  return {Box2d(8, 3),  Box2d(8, 3, false), Box2d(20, 10), Box2d(50, 20), Sweeps("8"),           Sweeps("20"),
-          Sweeps("50"), Nat("1e-2"),        Nat("1e-3"),   Nat("1e-4"),   AcceleratedNat("1e-3"), AcceleratedNat("1e-4"),
+  return {Box2d(8, 3),           Box2d(8, 3, false), Box2d(20, 10),          Box2d(50, 20),
+          Sweeps("8"),           Sweeps("20"),       Sweeps("50"),           Nat("1e-2"),
+          Nat("1e-3"),           Nat("1e-4"),        AcceleratedNat("1e-3"), AcceleratedNat("1e-4"),
           AcceleratedNat("1e-5")};
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contact updates per second of the NLGS sweep beside a bare loop: README.md says how to run it and to read the ratios.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """fronts.py FOLDER   prints, from the CSV files of fronts.sh, a section a scene: its front, Box2D beside it, and when IEA pays."""
 
 import csv

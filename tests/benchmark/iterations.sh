@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Iterations, residuals and interpenetration of NSCD and NSCDD on the two rotating boxes, as a table. Deterministic but for seconds.
 #     tests/benchmark/iterations.sh [build/release/bin/nscdd]
 set -euo pipefail

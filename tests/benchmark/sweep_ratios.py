@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Reads benchmark_sweep's JSON (repetitions, not aggregates) and prints medians beside the bare loop, as a table in Markdown.
 
 usage: sweep_ratios.py FILE.json

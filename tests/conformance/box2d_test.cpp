@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Box2D adapter over a world that a Box2D user built: everything but the ids goes through Box2D's own interface.
 #include <box2d/box2d.h>
 

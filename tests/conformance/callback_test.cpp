@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The callback adapter over the reference platform shown as a C table.
 #include "nscdd/callback/callback_adapter.h"
 #include "nscdd/host/adapter_host.h"

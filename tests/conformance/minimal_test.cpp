@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hooks of the smallest platform, and the program of its conformance tests.
 #include "minimal_adapter.h"
 #include "nscdd/conformance/hooks.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Contact problems exported by nscdd, read by libfclib and solved by Siconos: the same velocities, the same residual.
 
 Without argument: a unittest. With --table: also the long comparisons of 730 disks (minutes), as rows of README.md's table."""

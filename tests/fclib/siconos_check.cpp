@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads an FCLib file with libfclib, solves it with a solver of Siconos and compares with the answer in the file.
 //     siconos_check FILE.h5 nsgs|cpg|lemke|enum TOLERANCE MAX_ITERATIONS
 // and prints one line of JSON. Knows nothing of nscdd: residual and velocities are computed here from W, q, M, H, f, w, mu.
@@ -37,7 +38,8 @@ void AddTransposedProduct(const fclib_matrix& a, const double* x, Vector* y) {
   }
 }
 
-/// What both halves of the file must say alike: W r + q = H^T M^-1 (f + H r) + w for any r. Largest difference over largest entry.
+/// What both halves of the file must say alike: W r + q = H^T M^-1 (f + H r) + w for any r. Largest difference over largest
+/// entry.
 double Disagreement(const fclib_global& g, const fclib_local& l) {
   const int n = g.H->m, m = l.W->m;
   Vector r(m), p(g.f, g.f + n), global(g.w, g.w + m), local(l.q, l.q + m);
@@ -62,7 +64,8 @@ Vector Velocities(const fclib_global& g, const double* r) {
   return v;
 }
 
-/// Natural residual over |r|: r - P(r - rho (u + mu |u_t| n)), rho = 1 / max(W_nn, W_tt) of the contact (1 / W_nn without friction).
+/// Natural residual over |r|: r - P(r - rho (u + mu |u_t| n)), rho = 1 / max(W_nn, W_tt) of the contact (1 / W_nn without
+/// friction).
 double NaturalResidual(const fclib_local& l, const double* r) {
   Vector u(l.q, l.q + l.W->m), diagonal(l.W->m, 0.0);
   AddProduct(*l.W, r, &u);
@@ -181,7 +184,8 @@ int main(int argc, char** argv) {
 
   const Vector ours(answer->v, answer->v + global->M->m), theirs = Velocities(*global, r.data());
   std::printf(
-      "{\"contacts\": %d, \"title\": \"%s\", \"converged\": %s, \"halves\": %.3g, \"siconos_info\": %d, \"siconos_iterations\": %d, "
+      "{\"contacts\": %d, \"title\": \"%s\", \"converged\": %s, \"halves\": %.3g, \"siconos_info\": %d, "
+      "\"siconos_iterations\": %d, "
       "\"nat_siconos\": %.3g, \"nat_ours\": %.3g, \"balance_ours\": %.3g, \"velocity_distance\": %.3g}\n",
       contacts, global->info->title, converged ? "true" : "false", Disagreement(*global, *local), info,
       options->iparam[SICONOS_IPARAM_ITER_DONE], NaturalResidual(*local, r.data()), NaturalResidual(*local, answer->r),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bit>
@@ -30,8 +31,16 @@ class ByteSource {
   double Positive() {
     const std::uint8_t b = Byte();
     if (b < 240) return (1.0 + b) / 64.0;
-    constexpr double kOdd[] = {0.0, -1.0, 1e-300, 1e300, 5e-324, 1e-9, 1e9, std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    constexpr double kOdd[] = {0.0,
+                               -1.0,
+                               1e-300,
+                               1e300,
+                               5e-324,
+                               1e-9,
+                               1e9,
+                               std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
     const std::size_t k = b - 240u;
     return k < std::size(kOdd) ? kOdd[k] : std::bit_cast<double>(Word());
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checkpoint files: as they are, and with a size and a checksum that fit, so that what they hold is met as well.
 #include <cstring>
 #include <span>

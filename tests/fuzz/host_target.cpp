@@ -1,5 +1,7 @@
-// Tables through the C interface: a host whose callbacks answer with what the input says, steps, tables, state, and single problems.
-// Counts are those of the arrays behind them or larger than any array can be, for nobody can know the size of a C array.
+// SPDX-License-Identifier: Apache-2.0
+// Tables through the C interface: a host whose callbacks answer with what the input says, steps, tables, state, and single
+// problems. Counts are those of the arrays behind them or larger than any array can be, for nobody can know the size of a C
+// array.
 
 #include <array>
 #include <string>
@@ -46,7 +48,8 @@ struct Columns {
     for (std::size_t c = 0; c < count; ++c) {
       const bool any = in->Rarely() || bodies < 2;
       a.push_back(any ? static_cast<std::int32_t>(in->Word()) : static_cast<std::int32_t>(std::min(c / 2, bodies - 2)));
-      b.push_back(any ? static_cast<std::int32_t>(in->Word()) : static_cast<std::int32_t>(std::min(c / 2 + 1 + c % 2, bodies - 1)));
+      b.push_back(any ? static_cast<std::int32_t>(in->Word())
+                      : static_cast<std::int32_t>(std::min(c / 2 + 1 + c % 2, bodies - 1)));
       shape_a.push_back(in->Rarely() ? static_cast<std::int32_t>(in->Word()) : static_cast<std::int32_t>(c));
       shape_b.push_back(0);
       image.push_back(in->Rarely() ? static_cast<std::int32_t>(in->Word()) : 0);
@@ -121,14 +124,21 @@ struct Host {
     Host& h = Self(user);
     h.columns.FillBodies(h.in);
     const Columns& c = h.columns;
-    *t = {Count(h.in, c.id.size()),    Array(h.in, c.id),     Array(h.in, c.kind),
-          Array(h.in, c.mass),         Array(h.in, c.inertia), Array(h.in, c.radius),
-          Array(h.in, c.bounding_radius), Array(h.in, c.pose), Array(h.in, c.velocity),
+    *t = {Count(h.in, c.id.size()),
+          Array(h.in, c.id),
+          Array(h.in, c.kind),
+          Array(h.in, c.mass),
+          Array(h.in, c.inertia),
+          Array(h.in, c.radius),
+          Array(h.in, c.bounding_radius),
+          Array(h.in, c.pose),
+          Array(h.in, c.velocity),
           Array(h.in, c.force)};
     return h.Result();
   }
 
-  static std::int32_t DetectContacts(void* user, std::uint64_t count, const std::int64_t*, const double*, double, nscdd_contacts* t) {
+  static std::int32_t DetectContacts(void* user, std::uint64_t count, const std::int64_t*, const double*, double,
+                                     nscdd_contacts* t) {
     Host& h = Self(user);
     h.columns.FillContacts(h.in, count);
     *t = ShowContacts(h.in, h.columns, h.arms);
@@ -157,8 +167,8 @@ nscdd_create_arguments Arguments(ByteSource* in, const nscdd_host* host) {
   static const std::array<const char*, 5> grids = {"2x2", "1x1", "3x1", "1x5", "7x7"};
   static const std::array<const char*, 3> laws = {"gap", "strict", "feedback"};
   static const std::array<const char*, 2> interfaces = {"direct", "cg"};
-  static std::array<const char*, 6> names = {"max_iterations", "normal_law", "subdomains", "interface", "cg_max_iterations",
-                                             "max_interface_updates"};
+  static std::array<const char*, 6> names = {"max_iterations", "normal_law",        "subdomains",
+                                             "interface",      "cg_max_iterations", "max_interface_updates"};
   static std::array<const char*, 6> values = {"6", "", "", "", "6", "4"};
   const std::size_t solver = in->UpTo(5);
   values[1] = laws[in->UpTo(2)];

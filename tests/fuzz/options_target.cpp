@@ -1,5 +1,6 @@
-// Option strings through the C interface. The first line of an input names the solver, each further one is NAME=VALUE; without '='
-// the value is a null pointer.
+// SPDX-License-Identifier: Apache-2.0
+// Option strings through the C interface. The first line of an input names the solver, each further one is NAME=VALUE; without
+// '=' the value is a null pointer.
 
 #include <string>
 #include <string_view>
@@ -51,7 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::int32_t result = plugin->create(&arguments, &solver, sentence.data(), sentence.size());
   if ((result == NSCDD_OK) != (solver != nullptr)) nscdd::fuzz::Fail("create: its result and its handle disagree");
   if (result == NSCDD_FAILED) nscdd::fuzz::Fail("create failed where it should refuse");
-  if (std::string_view(sentence.data(), sentence.size()).find('\0') == std::string_view::npos) nscdd::fuzz::Fail("create: no terminator");
+  if (std::string_view(sentence.data(), sentence.size()).find('\0') == std::string_view::npos)
+    nscdd::fuzz::Fail("create: no terminator");
   if (result != NSCDD_OK && sentence.size() > 1) nscdd::fuzz::CheckSentence(sentence.data());
   plugin->destroy(solver);
   return 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Problem files of `nscdd solve`: read, and solved by each solver with few iterations if small.
 
 #include "nscdd/contact_problem.h"

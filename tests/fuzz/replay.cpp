@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feeds files, and the files of folders, to a fuzz target: for compilers without libFuzzer, and in the ordinary tests.
 
 #include <algorithm>

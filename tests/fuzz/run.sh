@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Fuzzes one target: run.sh PROGRAM NAME SECONDS [libFuzzer options]. New inputs go to a folder beside the program, crashes too.
 set -eu
 program=$1 name=$2 seconds=$3

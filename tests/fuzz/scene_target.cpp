@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scene files: read, built on both platforms and, if small, moved by two steps.
 
 #include <string>
@@ -18,8 +19,10 @@ constexpr char kDisks[] = "x,y,radius\n0,0,1\n3,0,1\n";
 std::int64_t Size(const Scene& scene) {
   std::int64_t size = CountBodies(scene);
   for (const BodySource& source : scene.bodies) {
-    if (const auto* wall = std::get_if<Wall>(&source.what)) size += static_cast<std::int64_t>(wall->disks.size() + wall->segments.size());
-    if (const auto* cluster = std::get_if<Cluster>(&source.what)) size += source.count * static_cast<std::int64_t>(cluster->disks.size());
+    if (const auto* wall = std::get_if<Wall>(&source.what))
+      size += static_cast<std::int64_t>(wall->disks.size() + wall->segments.size());
+    if (const auto* cluster = std::get_if<Cluster>(&source.what))
+      size += source.count * static_cast<std::int64_t>(cluster->disks.size());
   }
   return size;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -61,7 +62,8 @@ class ScratchFolder {
   std::filesystem::path Write(const char* name, const void* data, std::size_t size) const {
     const std::filesystem::path path = folder_ / name;
     std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr || std::fwrite(data, 1, size, file) != size || std::fclose(file) != 0) Fail("cannot write " + path.string());
+    if (file == nullptr || std::fwrite(data, 1, size, file) != size || std::fclose(file) != 0)
+      Fail("cannot write " + path.string());
     return path;
   }
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # third_party_test.sh SOURCE BUILD FLAGS   installs BUILD into an empty prefix and builds and tests third_party/ on it. All of it
 # happens in a temporary folder, and nothing there may mention SOURCE or BUILD. FLAGS: what else the compiler is to be told.
 set -euo pipefail

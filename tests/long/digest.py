@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """500 rows out of the rows of a run."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs scenes for very many steps: interpenetration, energy, speed and memory must stay bounded, and no step may diverge.
 
     tests/long/long_runs.py [--steps 100000] [--scenes NAME ...] [--slope 0.33] [--out results/long] [-- --tolerance 1e-4 ...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The scenes of the long runs, and one run of a scene with its memory watched."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a long run must keep to: sentences with their figures, and whether they hold."""
 
 import statistics

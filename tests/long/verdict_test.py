@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Each bound of a long run, with a run that keeps to all of them and one that breaks it."""
 
 import unittest

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hosts on several ranks: bodies removed, added and edited between steps, hosts that fail, continuation. Started on four ranks.
 
 #include <mpi.h>
@@ -40,7 +41,10 @@ bool SameAsOnOneRank(const NscddOptions& options, const Edit& edit, Communicator
 int CheckEdits(Communicator* c) {
   int failures = 0;
   const NscddOptions options = Strips(2, 3);
-  failures += ReportCheck("no edit", SameAsOnOneRank(options, [](RankedHost*, bool) {}, c), c);
+  failures += ReportCheck("no edit",
+                          SameAsOnOneRank(
+                              options, [](RankedHost*, bool) {}, c),
+                          c);
   // Every fourth body goes, among them many with ghosts elsewhere.
   const Edit remove = [](RankedHost* host, bool) {
     for (std::int64_t id = 2; id < 122; id += 4) {
@@ -91,7 +95,8 @@ int CheckContinuation(Communicator* c) {
   other.stepper->LoadState(saved);
   host.Step(6);
   other.Step(6);
-  return ReportCheck("continuation from the owned bodies and the saved state", !ghosts.empty() && Gather(host) == Gather(other), c);
+  return ReportCheck("continuation from the owned bodies and the saved state", !ghosts.empty() && Gather(host) == Gather(other),
+                     c);
 }
 
 /// What all ranks of a run leave behind, on every rank.

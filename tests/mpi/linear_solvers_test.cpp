@@ -1,5 +1,6 @@
-// Eigen and MUMPS solve the same augmented interface, MUMPS on one rank (MPI_COMM_SELF) and over all of them; factorisations are
-// kept while pattern and numbers stay. General matrices too.
+// SPDX-License-Identifier: Apache-2.0
+// Eigen and MUMPS solve the same augmented interface, MUMPS on one rank (MPI_COMM_SELF) and over all of them; factorisations
+// are kept while pattern and numbers stay. General matrices too.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -32,7 +33,8 @@ Matrix RingMatrix(int bodies, double lambda, int part, int parts) {
   for (int b = part; b < bodies; b += parts) {
     for (const int neighbour : {1, 7}) {
       const int other = (b + neighbour) % bodies;
-      const double g[4] = {std::cos(b + neighbour), std::sin(b + neighbour), -std::cos(b + neighbour), -std::sin(b + neighbour)};
+      const double g[4] = {std::cos(b + neighbour), std::sin(b + neighbour), -std::cos(b + neighbour),
+                           -std::sin(b + neighbour)};
       const int at[4] = {2 * b, 2 * b + 1, 2 * other, 2 * other + 1};
       for (int p = 0; p < 4; ++p) {
         for (int q = 0; q <= p; ++q) add(at[p], at[q], lambda * g[p] * g[q]);
@@ -84,7 +86,9 @@ bool GeneralSolversAgree(Communicator* communicator) {
   const double difference = Difference(expected, Solve(&mumps, m));
   const double symmetric = Difference(expected, Solve(&definite, RingMatrix(300, 10.0, 0, 1)));
   const bool ok = difference < 1e-10 && symmetric > 1e-3;
-  if (communicator->rank() == 0) fmt::print("{} general: MUMPS differs by {:.1e}, the symmetric one by {:.1e}\n", ok ? "ok    " : "FAILED", difference, symmetric);
+  if (communicator->rank() == 0)
+    fmt::print("{} general: MUMPS differs by {:.1e}, the symmetric one by {:.1e}\n", ok ? "ok    " : "FAILED", difference,
+               symmetric);
   return ok;
 }
 
@@ -101,7 +105,9 @@ int Check(Communicator* communicator) {
     const double distributed = Difference(expected, Solve(&shared, shared.is_distributed() ? mine : whole));
     const bool ok = local < 1e-10 && distributed < 1e-9;
     failures += !ok;
-    if (rank == 0) fmt::print("{} lambda {:g}: MUMPS differs by {:.1e}, over {} ranks by {:.1e}\n", ok ? "ok    " : "FAILED", lambda, local, ranks, distributed);
+    if (rank == 0)
+      fmt::print("{} lambda {:g}: MUMPS differs by {:.1e}, over {} ranks by {:.1e}\n", ok ? "ok    " : "FAILED", lambda, local,
+                 ranks, distributed);
   }
   // The pattern was the same all along, the numbers of the last two solves too.
   for (KeptSolver* solver : {&eigen, &mumps, &shared}) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data and messages are local: a rank holds its subdomains' bodies and a halo, and talks to its neighbours. Four ranks, a tall
 // sample in horizontal strips, so that a rank has two neighbours at most.
 
@@ -76,9 +77,10 @@ int Check(Communicator* world) {
   const int me = world->rank(), last = world->size() - 1;
   const std::set<int> neighbours = me == 0 ? std::set{1} : me == last ? std::set{me - 1} : std::set{me - 1, me + 1};
   int failures = 0;
-  failures += ReportCheck("interface exchanges with exactly the neighbours",
-                          recorder.exchanged == neighbours && recorder.most_partners == neighbours.size() && recorder.exchanges >= 250,
-                          world, fmt::format("{} exchanges", recorder.exchanges));
+  failures +=
+      ReportCheck("interface exchanges with exactly the neighbours",
+                  recorder.exchanged == neighbours && recorder.most_partners == neighbours.size() && recorder.exchanges >= 250,
+                  world, fmt::format("{} exchanges", recorder.exchanges));
   // The wall reaches along the whole sample: its owner tells everybody.
   const bool owns_wall = host.Owns(0);
   bool local = true;

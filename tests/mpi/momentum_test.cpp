@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Momentum of every step: what the free bodies gain is what gravity and walls give, to rounding, for every solver on 1, 2 and 4
 // ranks (those of one subdomain on one), converged or not. Started on four ranks; smaller numbers of ranks are parts of them.
 

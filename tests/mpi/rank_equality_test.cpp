@@ -1,5 +1,6 @@
-// Results depend on the number of subdomains, never on the number of ranks: the same bits on 1, 2, 3 and 4 ranks, and without MPI.
-// Started on four ranks; smaller numbers of ranks are parts of them.
+// SPDX-License-Identifier: Apache-2.0
+// Results depend on the number of subdomains, never on the number of ranks: the same bits on 1, 2, 3 and 4 ranks, and without
+// MPI. Started on four ranks; smaller numbers of ranks are parts of them.
 
 #include <fmt/format.h>
 #include <mpi.h>

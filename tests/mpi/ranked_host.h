@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <fmt/format.h>
@@ -147,8 +148,8 @@ inline int CountFailures(bool holds, Communicator* communicator) {
 inline int ReportCheck(const std::string& name, bool holds, Communicator* communicator, const std::string& detail = {}) {
   const int failures = CountFailures(holds, communicator);
   if (communicator->rank() == 0 || !holds) {
-    fmt::print("{} {}{}{}\n", failures == 0 ? "ok    " : "FAILED", name, holds ? "" : fmt::format(" on rank {}", communicator->rank()),
-               detail.empty() ? "" : ": " + detail);
+    fmt::print("{} {}{}{}\n", failures == 0 ? "ok    " : "FAILED", name,
+               holds ? "" : fmt::format(" on rank {}", communicator->rank()), detail.empty() ? "" : ": " + detail);
   }
   return failures;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several ranks write one set of results: the same final.csv as one rank, one results.h5, and the same error everywhere.
 // Usage: mpirun -n N mpi_results FOLDER (which is emptied).
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The faults of faults.toml, each a text in a file and what it becomes."""
 
 import dataclasses

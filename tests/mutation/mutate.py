@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Puts one fault after the other into a copy of this checkout, builds it and runs the tests: each fault must be caught.
 
     tests/mutation/mutate.py                          # all of faults.toml

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The checks of the list: each way to get it wrong is found and named."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What became of each fault, as lines and as the table of README.md."""
 
 import dataclasses

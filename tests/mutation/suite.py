@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs tests of a build one after the other until one fails, and says which."""
 
 import dataclasses

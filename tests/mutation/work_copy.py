@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A copy of the checkout in a folder of its own, with its own build: the user's tree is never touched."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The paper's claims, each with the numbers of this run and whether they bear it out."""
 
 import statistics

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The paper's figures and its table, one function each: runs, plots, and the numbers that the claims need."""
 
 import statistics

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Curves into data files and PNG pictures, by gnuplot."""
 
 import subprocess

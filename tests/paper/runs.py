@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs nscdd for the study and reads what it wrote. Python's standard library only."""
 
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Reproduces the paper "augmented interface problem" (Visseq, Alart, Dureisseix): its figures, its table, and a verdict on each claim.
 
     tests/paper/study.py [--quick] [--out results/paper] [--nscdd build/release/bin/nscdd] [--only figure3 ...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the paper did not measure: the enriched interface with several sweeps per stage, the conjugate gradient's preconditioners,
 stability in lambda, the correction of interpenetration, and what an update costs."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A plugin that does nothing; with one of the FAULT_ definitions it is one that a host must refuse. */
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/callback/callback_adapter.h"
 
 #include <gtest/gtest.h>

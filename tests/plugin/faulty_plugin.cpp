@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our own plugin with one thing spoilt: the environment variable NSCDD_FAULT says which. "none" spoils nothing.
 #include <dlfcn.h>
 #include <mpi.h>

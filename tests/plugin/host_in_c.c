@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A host in C: loads a solver plugin, lists its solvers, solves one contact problem and steps a world of one disk that falls on
  * a plane. Usage: host_in_c PLUGIN.so; exit code 0 when all of it worked. */
 #include <dlfcn.h>

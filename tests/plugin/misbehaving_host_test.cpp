@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -40,7 +41,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spoilt{"throwing", [](P* p) { p->throws = "read"; }, {"read_bodies", "on strike"}},
         Spoilt{"nan_velocity", [](P* p) { p->bodies.velocity[1].vy = kNan; }, {"ReadBodies", "body 1"}},
-        Spoilt{"beyond_numbers", [](P* p) { p->bodies.pose[1].x = p->bodies.velocity[1].vx = 1.797e308; },
+        Spoilt{"beyond_numbers",
+               [](P* p) { p->bodies.pose[1].x = p->bodies.velocity[1].vx = 1.797e308; },
                {"ReadBodies", "body 1", "largest number"}},
         Spoilt{"nan_force", [](P* p) { p->bodies.force[2].torque = kNan; }, {"ReadBodies", "body 2"}},
         Spoilt{"negative_mass", [](P* p) { p->bodies.mass[1] = -1.0; }, {"ReadBodies", "body 1", "mass"}},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Handles of the plugin over a communicator, on two ranks; exit code 0 when all of it holds.
 #include <mpi.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/host/validator.h"
 
 #include <gtest/gtest.h>
@@ -75,9 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Fault{"new_description", "same description"}, Fault{"loud_name", "names of solvers"},
                     Fault{"bad_default", "defaults have"}, Fault{"leak", "no memory behind"},
                     Fault{"slow_step", "steps two disks"}, Fault{"shared_handle", "do not disturb"},
-                    Fault{"no_load", "saved state"}, Fault{"no_load_states", "saved state"},
-                    Fault{"mpi", "leaves MPI alone"}, Fault{"normal", "disk at rest"},
-                    Fault{"tangential", "sliding disk"}, Fault{"inelastic", "head-on impact"},
+                    Fault{"no_load", "saved state"}, Fault{"no_load_states", "saved state"}, Fault{"mpi", "leaves MPI alone"},
+                    Fault{"normal", "disk at rest"}, Fault{"tangential", "sliding disk"}, Fault{"inelastic", "head-on impact"},
                     Fault{"sticky", "opening contact"}, Fault{"any_option", "unknown solvers, options"},
                     Fault{"null_arguments", "null pointers"}, Fault{"destroy_null", "null pointers"},
                     Fault{"truncated", "truncated structures"}, Fault{"long_sentence", "terminates its sentences"},

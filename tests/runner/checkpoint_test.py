@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checkpoints: a killed run goes on as if nothing had been, on any number of ranks; what cannot go on is a sentence."""
 
 import json

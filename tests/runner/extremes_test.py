@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`nscdd extremes`: the short map has no silent miss, and would not stay silent about one."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs that are interrupted: starting, watching and killing them, and comparing what they leave."""
 
 import glob

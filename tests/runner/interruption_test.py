@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs that are told to end, killed at random moments, or out of space: what they say, and that they go on."""
 
 import os

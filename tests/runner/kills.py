@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Kills a run at random moments, one rank or all, also while it writes, and resumes it on a random number of ranks until it has
 finished: it must lose at most the steps since the last checkpoint, and give the results of the uninterrupted run, bit for bit.
 

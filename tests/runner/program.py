@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs nscdd for the tests of this folder; needs nothing but Python's standard library."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shipped scenes on 1 to 4 ranks: final.csv and all columns of steps.csv but the seconds agree bit for bit."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bad input: one sentence on stderr with the place and the mend, exit code 2, nothing written."""
 
 import unittest

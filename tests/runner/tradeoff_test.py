@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """nscdd tradeoff on a scene of a few dozen disks, and solver "auto"."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced before tests run under the asan preset. LSan needs whole stacks to recognise frames of libraries built without frame
 # pointers, hence the slow unwinder.
 sanitizers=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

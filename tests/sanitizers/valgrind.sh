@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # All test programs of one process under valgrind: no invalid access, no use of unset memory, nothing lost for good.
 #     tests/sanitizers/valgrind.sh [PROGRAM ...]     (default: all of build/release/bin; about five minutes on one core)
 # Needs Debian's valgrind. Exit code 1 if a test fails or valgrind objects.

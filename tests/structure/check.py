@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """check.py tree ROOT | check.py plugin FILE.so   prints what breaks the project's structure; exit code 1 if anything does."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rules of the project's structure, as data."""
 
 # Parts by folder; the longest prefix wins. Tests may include anything.

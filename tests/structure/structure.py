@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds what breaks the rules of rules.py; every finding is a sentence that names the file, the line and the rule."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The checks themselves: a small sound tree passes, and each way to spoil it is found. structure_test.py SHARED_LIBRARY"""
 
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace nscdd::test {
 
-/// A small platform on one rank, as a user would have it: a world, its adapter and the solver. Fill `world`, then step; the world
-/// may be edited between steps.
+/// A small platform on one rank, as a user would have it: a world, its adapter and the solver. Fill `world`, then step; the
+/// world may be edited between steps.
 struct Host {
   explicit Host(const SteppingOptions& stepping_options = {}, const AlgorithmOptions& algorithm_options = NscdOptions{})
       : stepping(stepping_options), algorithm(algorithm_options) {}

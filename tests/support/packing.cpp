@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "packing.h"
 
 #include <fmt/format.h>
@@ -98,8 +99,13 @@ Outcome Run(const Packing& packing, const SteppingOptions& stepping, const Algor
   const std::vector<double> gathered = communicator->AllGather(mine);
   for (std::size_t i = 0; i < gathered.size(); i += 9) {
     const double* r = &gathered[i];
-    outcome.bodies.push_back({static_cast<std::int64_t>(r[0]), BodyKind::kFree, 0.0, {r[1], r[2], r[3]}, {r[4], r[5], r[6]},
-                              static_cast<int>(r[7]), static_cast<int>(r[8])});
+    outcome.bodies.push_back({static_cast<std::int64_t>(r[0]),
+                              BodyKind::kFree,
+                              0.0,
+                              {r[1], r[2], r[3]},
+                              {r[4], r[5], r[6]},
+                              static_cast<int>(r[7]),
+                              static_cast<int>(r[8])});
   }
   std::sort(outcome.bodies.begin(), outcome.bodies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return outcome;
@@ -111,13 +117,29 @@ std::string Difference(const Outcome& one, const Outcome& other) {
     const StepReport &a = one.reports[k], &b = other.reports[k];
     const auto numbers = [](const StepReport& r) {
       const Residuals& e = r.solve.residuals;
-      return std::vector<double>{
-          static_cast<double>(r.solve.contacts), static_cast<double>(r.solve.active), static_cast<double>(r.solve.sticking),
-          static_cast<double>(r.solve.iterations), e.nat, e.nat_max, e.quad, e.maxm, e.interface_jump, e.relative_jump,
-          static_cast<double>(e.worst.body_a), static_cast<double>(e.worst.body_b), r.mean_interpenetration,
-          r.max_interpenetration, r.kinetic_energy, r.momentum_x, r.momentum_y, r.mean_radius, r.max_drift,
-          static_cast<double>(r.solve.interface_bodies), static_cast<double>(r.solve.interface_copies),
-          static_cast<double>(r.solve.max_multiplicity), static_cast<double>(r.solve.empty_subdomains)};
+      return std::vector<double>{static_cast<double>(r.solve.contacts),
+                                 static_cast<double>(r.solve.active),
+                                 static_cast<double>(r.solve.sticking),
+                                 static_cast<double>(r.solve.iterations),
+                                 e.nat,
+                                 e.nat_max,
+                                 e.quad,
+                                 e.maxm,
+                                 e.interface_jump,
+                                 e.relative_jump,
+                                 static_cast<double>(e.worst.body_a),
+                                 static_cast<double>(e.worst.body_b),
+                                 r.mean_interpenetration,
+                                 r.max_interpenetration,
+                                 r.kinetic_energy,
+                                 r.momentum_x,
+                                 r.momentum_y,
+                                 r.mean_radius,
+                                 r.max_drift,
+                                 static_cast<double>(r.solve.interface_bodies),
+                                 static_cast<double>(r.solve.interface_copies),
+                                 static_cast<double>(r.solve.max_multiplicity),
+                                 static_cast<double>(r.solve.empty_subdomains)};
     };
     const auto na = numbers(a), nb = numbers(b);
     for (std::size_t i = 0; i < na.size(); ++i) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace nscdd::test {
 
-/// A dense sample: a jittered triangular lattice of disks in an open box of segments (or over a row of fixed disks in a periodic
-/// strip), gravity tilted. Deterministic.
+/// A dense sample: a jittered triangular lattice of disks in an open box of segments (or over a row of fixed disks in a
+/// periodic strip), gravity tilted. Deterministic.
 struct Packing {
   int columns = 12;
   int rows = 10;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solver "auto": which rungs, and when the next one.
 
 #include <gtest/gtest.h>
@@ -71,7 +72,8 @@ TEST(AutoWatcher, KeepsTheBudget) {
   for (int k = 0; k < 9; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kClimb);
   EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 2e-3, true, true), Verdict::kDescend);
-  for (int k = 0; k < 30; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
+  for (int k = 0; k < 30; ++k)
+    EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
   EXPECT_EQ(watcher.state().escalations, 1);
   EXPECT_EQ(watcher.state().descents, 1);
   EXPECT_NE(watcher.Summary("x", "y").find("1 of 41 steps took longer"), std::string::npos);

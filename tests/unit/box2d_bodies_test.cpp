@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ids, edits, loads, units and refusals of the Box2D adapter.
 #include <gtest/gtest.h>
 

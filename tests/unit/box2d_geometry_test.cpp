@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaps, frames, levers and arms of the Box2D adapter against closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pairs the Box2D adapter finds: complete against all pairs, filtered, periodic, whatever happened before.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The periodic direction of the Box2D adapter, which Box2D itself does not have.
 #include <gtest/gtest.h>
 

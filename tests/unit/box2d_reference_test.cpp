@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Box2D adapter and the reference adapter over the same random bodies must see the same contacts.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the Box2D adapter refuses, and that its sentences say whom and why.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The b2World beside our steps: transport of bodies, silence of its own contacts, and coming back to its own Step.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Anderson acceleration: the same fixed point in fewer iterations, on swept states, with its safeguards.
 
 #include <gtest/gtest.h>
@@ -67,7 +68,8 @@ TEST_P(Accelerated, ReachesTheVelocitiesOfThePlainIterationInAFifthOfItsIteratio
   const Setting& s = GetParam();
   const ContactProblem p = SampleProblem({.friction = 0.0, .subdomains = s.subdomains});
   const ContactSolution plain = SolveContactProblem(p, NscddOptions{To(1e-11), {}, 1, kPlain});
-  const ContactSolution fast = SolveContactProblem(p, NscddOptions{To(1e-11), {}, 1, {Acceleration::kAnderson, s.depth, s.every}});
+  const ContactSolution fast =
+      SolveContactProblem(p, NscddOptions{To(1e-11), {}, 1, {Acceleration::kAnderson, s.depth, s.every}});
   ASSERT_EQ(plain.report.status, SolveStatus::kConverged);
   EXPECT_EQ(fast.report.status, SolveStatus::kConverged) << fast.report.reason;
   EXPECT_LT(LargestDifference(plain, fast), 1e-8);
@@ -79,7 +81,8 @@ TEST_P(Accelerated, ReachesTheVelocitiesOfThePlainIterationInAFifthOfItsIteratio
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, Accelerated,
-                         testing::Values(Setting{1, 5, 1}, Setting{1, 2, 1}, Setting{1, 8, 4}, Setting{4, 5, 1}, Setting{13, 5, 2}));
+                         testing::Values(Setting{1, 5, 1}, Setting{1, 2, 1}, Setting{1, 8, 4}, Setting{4, 5, 1},
+                                         Setting{13, 5, 2}));
 
 TEST(Acceleration, SolvesColumnsAndHeavyTops) {
   for (const auto& [count, top] : {std::pair{40, 1.0}, std::pair{160, 1.0}, std::pair{5, 1e6}}) {
@@ -156,8 +159,8 @@ TEST(Acceleration, ReturnsTheBestTestedState) {
   }
 }
 
-// One sweep a stage cannot undo what a large lambda does without friction. By default every lambda converges all the same, mostly by
-// the restarts of the acceleration; the next test is the one that needs the guard.
+// One sweep a stage cannot undo what a large lambda does without friction. By default every lambda converges all the same,
+// mostly by the restarts of the acceleration; the next test is the one that needs the guard.
 TEST(JumpGuard, LetsEveryLambdaConverge) {
   const ContactProblem p = SampleProblem({.friction = 0.0, .subdomains = 6});
   const ContactSolution nscdd = SolveContactProblem(p, NscddOptions{To(1e-9), {}, 1, {}});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The augmented interface: golden impulses of the pyramid, and its identities.
 
 #include <gtest/gtest.h>
@@ -132,8 +133,9 @@ TEST(AugmentedInterface, ConjugateGradientIsTheDirectSolve) {
         }
         // Every body is on this interface; at 1e4 the weak preconditioners stagnate at their attainable accuracy.
         const bool weak = preconditioner == Preconditioner::kNone || preconditioner == Preconditioner::kDiagonal;
-        EXPECT_LT(error, (weak && lambda > 1e3 ? 1e-5 : 1e-9) * norm) << "lambda " << lambda << ", compatibility " << static_cast<int>(compatibility)
-                                      << ", preconditioner " << static_cast<int>(preconditioner);
+        EXPECT_LT(error, (weak && lambda > 1e3 ? 1e-5 : 1e-9) * norm)
+            << "lambda " << lambda << ", compatibility " << static_cast<int>(compatibility) << ", preconditioner "
+            << static_cast<int>(preconditioner);
         o.solve = InterfaceSolve::kDirect;
       }
     }

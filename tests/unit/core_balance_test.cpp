@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Momentum and energy of every step come from somewhere: loads, walls, and sources that are counted.
 
 #include <fmt/format.h>

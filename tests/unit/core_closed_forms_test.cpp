@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole steps against closed forms: rest, slide, roll, flight, impact, the normal laws and the theta scheme.
 
 #include <gtest/gtest.h>
@@ -183,7 +184,8 @@ class GapFeedback : public testing::TestWithParam<Feedback> {};
 // Two resting disks that overlap by 0.1.
 TEST_P(GapFeedback, OneStep) {
   const Feedback& f = GetParam();
-  const SteppingOptions o{.normal_law = NormalLaw::kFeedback, .feedback_beta = f.beta, .feedback_slop = f.slop, .feedback_cap = f.cap};
+  const SteppingOptions o{
+      .normal_law = NormalLaw::kFeedback, .feedback_beta = f.beta, .feedback_slop = f.slop, .feedback_cap = f.cap};
   Host host(o, Exact());
   reference::Body& left = host.AddDisk(1, {0.0, 0.0}, 0.5);
   reference::Body& right = host.AddDisk(2, {0.9, 0.0}, 0.5);
@@ -196,8 +198,9 @@ TEST_P(GapFeedback, OneStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Options, GapFeedback,
-                         testing::Values(Feedback{0.2, 0.0, 1e300, 2.0}, Feedback{0.2, 0.04, 1e300, 1.2}, Feedback{0.2, 0.04, 0.5, 0.5},
-                                         Feedback{0.2, 0.1, 1e300, 0.0}, Feedback{0.0, 0.0, 1e300, 0.0}));
+                         testing::Values(Feedback{0.2, 0.0, 1e300, 2.0}, Feedback{0.2, 0.04, 1e300, 1.2},
+                                         Feedback{0.2, 0.04, 0.5, 0.5}, Feedback{0.2, 0.1, 1e300, 0.0},
+                                         Feedback{0.0, 0.0, 1e300, 0.0}));
 
 TEST(NormalLaws, FeedbackUndoesInterpenetrationDownToTheSlop) {
   for (const double slop : {0.0, 0.01}) {

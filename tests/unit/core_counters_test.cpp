@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene pays for what it requires and for nothing else: unknowns, bytes, messages, interface.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What holds whatever the scene: mirrored, turned, shuffled and scaled scenes give the same velocities.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solved contact problems (tests/data/golden): the steps' solutions to 1e-12 in SI units.
 
 #include <gtest/gtest.h>

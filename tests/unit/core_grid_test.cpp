@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <set>
@@ -55,7 +56,8 @@ TEST(Grid, CellsNearAPointAreComplete) {
         std::set<int> near;
         grid.ForEachCellNear({grid.Wrap(x), 2.5}, reach, [&](int cell) { EXPECT_TRUE(near.insert(cell).second); });
         for (double dx = -reach; dx <= reach; dx += reach / 4) {
-          for (double dy = -reach; dy <= reach; dy += reach / 4) EXPECT_TRUE(near.count(grid.CellOf({grid.Wrap(x) + dx, 2.5 + dy})));
+          for (double dy = -reach; dy <= reach; dy += reach / 4)
+            EXPECT_TRUE(near.count(grid.CellOf({grid.Wrap(x) + dx, 2.5 + dy})));
         }
       }
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the host's user does between steps, what a host does wrong, and continuation from a saved state.
 
 #include <gtest/gtest.h>
@@ -49,7 +50,7 @@ TEST(HostEdits, BodiesComeGoAndMove) {
   host.world.Remove(10);
   const StepReport& fewer = host.Step(kDt);
   EXPECT_EQ(fewer.bodies, 2);
-  EXPECT_NEAR(host.body(11).velocity.vy, -kG * kDt, 1e-3);  // nothing holds it any more
+  EXPECT_NEAR(host.body(11).velocity.vy, -kG * kDt, 1e-3);   // nothing holds it any more
   host.AddDisk(10, {0.0, 7.0}, 0.4, 0.3).velocity.vx = 1.0;  // the same id, another body
   EXPECT_EQ(host.Step(kDt).bodies, 3);
   EXPECT_NEAR(host.body(10).pose.x, kDt, 1e-15);

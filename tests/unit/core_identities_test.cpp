@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Identities of the decomposition (math: section 5 of Visseq, Alart and Dureisseix's method) on a dense random sample.
 
 #include <gtest/gtest.h>
@@ -15,8 +16,8 @@
 namespace nscdd {
 namespace {
 
-using test::SampleProblem;
 using test::Sample;
+using test::SampleProblem;
 
 class Identities : public testing::TestWithParam<int> {
  protected:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exact solution of one contact: the law holds to rounding, for any friction, with and without coupling W_nt.
 
 #include <gtest/gtest.h>

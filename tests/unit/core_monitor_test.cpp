@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a solve ends: each status reached on purpose, with its reason, at the tests that were asked for.
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ TEST_P(EveryCriterion, Converges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryCriterion,
-                         testing::Values(Criterion::kNat, Criterion::kNatMax, Criterion::kQuad, Criterion::kMaxm, Criterion::kQm16));
+                         testing::Values(Criterion::kNat, Criterion::kNatMax, Criterion::kQuad, Criterion::kMaxm,
+                                         Criterion::kQm16));
 
 TEST(Status, IterationLimit) {
   const ContactSolution s = SolveContactProblem(SampleProblem({}), Options(1e-9, 13));
@@ -217,7 +219,8 @@ TEST(WorstContact, IsNamed) {
   p.offset[bad] = -0.1;  // asks for an opening that nobody has given yet
   Watched w(p);
   w.sample.problem.scales.velocity = 0.2;
-  for (std::size_t i = 0; i < w.sample.body_id.size(); ++i) w.sample.body_id[i] = (std::int64_t{1} << 60) + static_cast<std::int64_t>(i);
+  for (std::size_t i = 0; i < w.sample.body_id.size(); ++i)
+    w.sample.body_id[i] = (std::int64_t{1} << 60) + static_cast<std::int64_t>(i);
   Monitor monitor(w.sample.problem, {}, &w.serial);
   monitor.Stops(1, w.statistics, {}, w.state);
   const SolveReport report = monitor.Finish(1, 1, &w.state);

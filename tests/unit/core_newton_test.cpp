@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solver newton: its sparse factorisation, golden problems, scenes that NLGS solves too, limits.
 
 #include <gtest/gtest.h>
@@ -111,8 +112,12 @@ TEST(Newton, ReachesTheGoldenVelocities) {
 
 // Disks and clusters, with and without friction, touched by walls at rest and in motion.
 TEST(Newton, AgreesWithSweepsOverSteps) {
-  const Packing packings[] = {{}, {.friction = 0.0}, {.periodic = true}, {.friction = 0.0, .clusters = true},
-                              {.clusters = true}, {.restitution = 0.5, .turning_wall = true}};
+  const Packing packings[] = {{},
+                              {.friction = 0.0},
+                              {.periodic = true},
+                              {.friction = 0.0, .clusters = true},
+                              {.clusters = true},
+                              {.restitution = 0.5, .turning_wall = true}};
   for (const Packing& packing : packings) {
     SerialCommunicator serial;
     NewtonOptions newton = To(1e-7);
@@ -167,7 +172,8 @@ TEST(Newton, ALimitIsAStatusWithTheBestIterate) {
   }
 }
 
-// Asked for more than rounding allows, it stalls near rounding and does not run away; also where the solution is no impulse at all.
+// Asked for more than rounding allows, it stalls near rounding and does not run away; also where the solution is no impulse at
+// all.
 TEST(Newton, StaysWhereRoundingStopsIt) {
   ContactProblem flight = SampleProblem({.friction = 0.4});
   for (double& offset : flight.offset) offset += 1.0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Residuals and LMGC90's criteria against literal transcriptions of their formulas, on random problems and random states.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes over many steps: warm start, periodic strips, clusters, worlds without anything to do, scale freedom.
 
 #include <gtest/gtest.h>

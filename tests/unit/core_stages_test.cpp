@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The schedules of REA and IEA: subdomains by themselves, polish sweeps, closing updates, and what is reported of them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prescribed motion: the velocity of a wall at the touching point drives the bodies; nothing changes the wall.
 
 #include <gtest/gtest.h>
@@ -157,7 +158,8 @@ TEST(TurningWall, SubdomainsDoNotMatter) {
     for (int i = 0; i < 6; ++i) host.AddDisk(1 + i, {i * 1.0 - 2.5, 0.5}, 0.5, 0.3);
     host.Step(10, kDt);
     std::vector<double> out;
-    for (int i = 1; i <= 6; ++i) out.insert(out.end(), {host.body(i).velocity.vx, host.body(i).velocity.vy, host.body(i).velocity.spin});
+    for (int i = 1; i <= 6; ++i)
+      out.insert(out.end(), {host.body(i).velocity.vx, host.body(i).velocity.vy, host.body(i).velocity.spin});
     return out;
   };
   NscddOptions nscdd;

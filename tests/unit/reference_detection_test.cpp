@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contacts of the reference adapter in particular configurations, and against a plain double loop.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference platform itself: bodies, filters, edits and transport.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures: what is painted where, sizes and refusals. Pixels are looked at through Cairo.
 #include "render/render.h"
 

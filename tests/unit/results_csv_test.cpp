@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // steps.csv and final.csv.
 #include <gtest/gtest.h>
 

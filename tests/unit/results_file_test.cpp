@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // results.h5 as our reader and as h5py see it, and results.xdmf.
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose results a folder holds, and that nothing is half-written.
 #include <gtest/gtest.h>
 

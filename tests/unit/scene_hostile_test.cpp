@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that mean harm: refused with a sentence, at once, on little memory and stack.
 
 #include <gtest/gtest.h>
@@ -105,14 +106,17 @@ TEST(Hostile, PackingsThatAreNoText) {
 
 TEST(Hostile, Counts) {
   const TestFolder folder;
-  const auto path = folder.Write("bad.toml", kTime + "[[lattices]]\ncount = 1000000000\nx = [0, 1000]\nbottom = 0\nradius = 1\n");
+  const auto path =
+      folder.Write("bad.toml", kTime + "[[lattices]]\ncount = 1000000000\nx = [0, 1000]\nbottom = 0\nradius = 1\n");
   const Scene scene = ReadSceneFile(path);
   const auto nothing = [](const BodyDefinition&) { FAIL() << "a body was made"; };
   ExpectIn("1000000000 bodies", Refusal([&] { ForEachBody(scene, 0, 1, nothing); }));
   ExpectIn("more ranks", Refusal([&] { ForEachBody(scene, 3, 7, nothing); }));
-  const std::string wall = "[[walls]]\ntype = \"disks\"\nradius = 1e-6\npoints = [[0, 0], [0, 1]" + Repeat(", [1, 0], [1, 1]", 100) + "]\n";
+  const std::string wall =
+      "[[walls]]\ntype = \"disks\"\nradius = 1e-6\npoints = [[0, 0], [0, 1]" + Repeat(", [1, 0], [1, 1]", 100) + "]\n";
   ExpectIn("spacing", SceneRefusal(kTime + kDisk + wall));
-  ExpectIn("shapes", SceneRefusal(kTime + kDisk + Repeat("[[walls]]\ntype = \"segments\"\ncircle = [0, 0, 1]\nsides = 1000000\n", 4)));
+  ExpectIn("shapes",
+           SceneRefusal(kTime + kDisk + Repeat("[[walls]]\ntype = \"segments\"\ncircle = [0, 0, 1]\nsides = 1000000\n", 4)));
   std::string at = "at = [[0, 0, 0]", disks = "disks = [[0, 0, 1]";
   for (int i = 0; i < 10000; ++i) at += ", [0, 0, 0]", disks += ", [0, 0, 1]";
   ExpectIn("places", SceneRefusal(kTime + "[[clusters]]\n" + at + "]\n" + disks + "]\n"));

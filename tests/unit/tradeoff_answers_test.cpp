@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The yardstick of answers, beside closed forms and beside what the core says of its own answers.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ranking, choosing and telling, on rows made up here.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An ordinary Box2D program: a ground, two walls, a heap of disks and a loop. Its only unusual line is the step.
 #include <box2d/box2d.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of BodyStore that keeps master and mirror together.
 #include <fmt/format.h>
 

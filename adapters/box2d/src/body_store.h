@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -112,8 +113,8 @@ class BodyStore {
   std::unordered_map<const b2Body*, std::int32_t> slot_of_body_;
   std::int64_t next_id_ = 0;
 
-  std::vector<b2Body*> walk_;           // scratch: the world's list
-  std::int32_t walked_count_ = 0;       // what DropDestroyedIfAny() compares with
+  std::vector<b2Body*> walk_;      // scratch: the world's list
+  std::int32_t walked_count_ = 0;  // what DropDestroyedIfAny() compares with
   const b2Body* walked_newest_ = nullptr;
   std::vector<Walked> order_;           // the world's list at the last Sync, oldest first
   std::vector<std::int32_t> unwalked_;  // slots that Add made since

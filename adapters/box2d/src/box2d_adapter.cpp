@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/box2d/box2d_adapter.h"
 
 #include <box2d/box2d.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Double-precision shapes in place of the fixtures' floats, checked against them.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who the bodies are: description, ids, mass properties, loads, prescribed motion.
 #include <algorithm>
 #include <cmath>

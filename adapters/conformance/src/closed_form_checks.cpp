@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole time step through the adapter, against closed forms.
 #include <cmath>
 

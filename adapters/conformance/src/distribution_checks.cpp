@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies over several hosts, as over the ranks of a run, and periodic worlds.
 #include <algorithm>
 #include <cmath>

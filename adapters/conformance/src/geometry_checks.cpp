@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a contact: gap, normal, levers, arms, site.
 #include <algorithm>
 #include <cmath>

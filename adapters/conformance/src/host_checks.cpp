@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who owns what: detection leaves the host alone, Commit does not, the host's user may edit; two hosts share nothing.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pairs of shapes are contacts: all of them, once, sorted, whatever happened before.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad calls are refused with a sentence, and change nothing.
 #include <limits>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The second half of ContactDetector: the numbers of each contact, from A to B, whatever way the pair was found.
 #include <cmath>
 

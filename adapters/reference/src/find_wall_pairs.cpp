@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of ContactDetector that finds disks near segments and half-planes.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/reference/reference_adapter.h"
 
 #include <fmt/format.h>

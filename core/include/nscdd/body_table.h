@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ enum class BodyKind : std::uint8_t {
 ///
 /// A rank's table holds the bodies of its subdomains and their ghosts, never the whole world. All columns have size().
 struct BodyTable {
-  std::vector<std::int64_t> id;         ///< unique, stable as long as the body lives; any non-negative number
+  std::vector<std::int64_t> id;  ///< unique, stable as long as the body lives; any non-negative number
   std::vector<BodyKind> kind;
   std::vector<double> mass;             ///< [kg], finite and > 0 if kFree, not read if kPrescribed
   std::vector<double> inertia;          ///< about the centre of mass [kg m^2], finite and > 0 if kFree, else not read

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <compare>
@@ -41,18 +42,18 @@ struct ContactTable {
   std::vector<std::int32_t> b;        ///< row of body B; id[a] < id[b]
   std::vector<std::int32_t> shape_a;  ///< shape in contact of A, see ContactKey
   std::vector<std::int32_t> shape_b;
-  std::vector<std::int32_t> image;    ///< empty when the platform is not periodic
+  std::vector<std::int32_t> image;  ///< empty when the platform is not periodic
   std::vector<double> gap;
   std::vector<Vec2> normal;
   std::vector<double> lever_a;
   std::vector<double> lever_b;
-  std::vector<Vec2> arm_a;            ///< both arms empty when all of them are zero
+  std::vector<Vec2> arm_a;  ///< both arms empty when all of them are zero
   std::vector<Vec2> arm_b;
-  std::vector<Vec2> site;  ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
-                           ///< (the disk's centre, as B is seen, where that is deeper than its radius behind the wall)
-  std::vector<std::uint8_t> flat;     ///< 1: one side is flat here (half-plane, inside of a segment), 0: disks or a corner
-  std::vector<double> friction;       ///< Coulomb coefficient >= 0
-  std::vector<double> restitution;    ///< Newton coefficient in [0, 1]
+  std::vector<Vec2> site;          ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
+                                   ///< (the disk's centre, as B is seen, where that is deeper than its radius behind the wall)
+  std::vector<std::uint8_t> flat;  ///< 1: one side is flat here (half-plane, inside of a segment), 0: disks or a corner
+  std::vector<double> friction;    ///< Coulomb coefficient >= 0
+  std::vector<double> restitution;  ///< Newton coefficient in [0, 1]
 
   std::size_t size() const { return gap.size(); }
   bool has_arms() const { return !arm_a.empty(); }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -6,11 +7,12 @@
 
 namespace nscdd {
 
-/// Offset b_n [m/s] of the normal law 0 <= v_n + b_n _|_ r_n >= 0. `approach` is v_n before the step [m/s]; Newton's restitution e
-/// asks for v_n >= -e approach where the contact is closed and approaching. A gap below 1e-9 of the sum of the
-/// levers, or one that closes within a thousandth of the step, is closed: the law itself brings contacts to a gap of zero give or take
-/// rounding and the solver's residual, which must not decide about a bounce.
-inline double NormalOffset(const SteppingOptions& o, double gap, double levers, double approach, double restitution, double dt) {
+/// Offset b_n [m/s] of the normal law 0 <= v_n + b_n _|_ r_n >= 0. `approach` is v_n before the step [m/s]; Newton's
+/// restitution e asks for v_n >= -e approach where the contact is closed and approaching. A gap below 1e-9 of the sum of the
+/// levers, or one that closes within a thousandth of the step, is closed: the law itself brings contacts to a gap of zero give
+/// or take rounding and the solver's residual, which must not decide about a bounce.
+inline double NormalOffset(const SteppingOptions& o, double gap, double levers, double approach, double restitution,
+                           double dt) {
   const bool closed = gap <= std::max(1e-9 * levers, -1e-3 * dt * approach);
   const double rebound = closed && approach < 0.0 ? restitution * approach : 0.0;
   const double open = o.normal_law == NormalLaw::kStrict ? 0.0 : std::max(0.0, gap) / dt;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <variant>
@@ -34,10 +35,10 @@ struct SteppingOptions {
   double theta = 0.5;            ///< [-] in [1/2, 1]; contacts are detected at q + (1 - theta) dt V
   double alert_distance = -1.0;  ///< [m] pairs with a larger gap are no candidates; < 0: a tenth of the mean disk radius
   NormalLaw normal_law = NormalLaw::kGap;
-  double feedback_beta = 0.05;   ///< [-] part of the interpenetration that one step undoes
-  double feedback_slop = 0.0;    ///< [m] interpenetration that is left alone
-  double feedback_cap = 1e300;   ///< [m/s] largest recovery speed
-  bool warm_start = true;        ///< impulses of the previous step, by contact key; interface impulses by (body, subdomain)
+  double feedback_beta = 0.05;  ///< [-] part of the interpenetration that one step undoes
+  double feedback_slop = 0.0;   ///< [m] interpenetration that is left alone
+  double feedback_cap = 1e300;  ///< [m/s] largest recovery speed
+  bool warm_start = true;       ///< impulses of the previous step, by contact key; interface impulses by (body, subdomain)
 };
 
 /// Grid of subdomains over the mobile bodies' centres.
@@ -80,8 +81,8 @@ enum class Compatibility {
   kSticking,  ///< normals, and tangents of sticking contacts
 };
 
-/// Columns whose v_E enters the right-hand side (the status stage), where they differ from those of the matrix: tangents outside
-/// are taken at rest, v_t = 0. The paper allows for different operators in the two.
+/// Columns whose v_E enters the right-hand side (the status stage), where they differ from those of the matrix: tangents
+/// outside are taken at rest, v_t = 0. The paper allows for different operators in the two.
 enum class StatusCompatibility { kSame, kNormal, kSticking };
 
 /// Which v_E enters the search direction (r~ - r) + Lambda (v~ - v) = 0.
@@ -114,7 +115,7 @@ struct AugmentedInterfaceOptions {
   LambdaScale lambda_scale = LambdaScale::kMass;
   double reference_mass = 0.0;  ///< [kg] 0: mean mass of the free bodies
   double restoring = 0.0;       ///< [-] part of the interpenetration that the linear problem alone asks to undo in a step: its
-                                ///< search direction becomes (r~ - r) + Lambda (v~ - v - restoring max(0, -gap) / dt) = 0 on normals
+                           ///< search direction becomes (r~ - r) + Lambda (v~ - v - restoring max(0, -gap) / dt) = 0 on normals
   InterfaceSolve solve = InterfaceSolve::kDirect;
   LinearLibrary linear_solver = LinearLibrary::kAuto;
   Preconditioner preconditioner = Preconditioner::kLumped;
@@ -132,8 +133,8 @@ struct FeaOptions {
   bool jump_guard = true;  ///< plain updates for a while where the jump of the copies has more than doubled
 };
 
-/// Relaxed enriched algorithm, Algorithm 3: iterates like FEA until the interface alone converges, then in each subdomain with the
-/// interface impulses frozen.
+/// Relaxed enriched algorithm, Algorithm 3: iterates like FEA until the interface alone converges, then in each subdomain with
+/// the interface impulses frozen.
 struct ReaOptions {
   StoppingOptions stopping;  ///< of the subdomains; its tolerance is also that of the relative jump
   PartitionOptions partition;
@@ -142,8 +143,8 @@ struct ReaOptions {
   AugmentedInterfaceOptions interface;
 };
 
-/// Incomplete enriched algorithm, Algorithm 4: one sweep for the status of the contacts, one interface solve, then each subdomain by
-/// itself. What remains at the interface is reported, and may be reduced by the last two options.
+/// Incomplete enriched algorithm, Algorithm 4: one sweep for the status of the contacts, one interface solve, then each
+/// subdomain by itself. What remains at the interface is reported, and may be reduced by the last two options.
 struct IeaOptions {
   StoppingOptions stopping;  ///< of the subdomains; max_iterations is the cap on their sweeps
   PartitionOptions partition;
@@ -152,12 +153,13 @@ struct IeaOptions {
   int closing_updates = 0;  ///< closing iterations of NSCDD ("hybrid")
 };
 
-/// High accuracy with friction: interior point iterations, then proximal semismooth Newton steps, on one subdomain. Iterations are
-/// factorisations of a matrix of the size of all bodies; the criterion is nat or nat_max.
+/// High accuracy with friction: interior point iterations, then proximal semismooth Newton steps, on one subdomain. Iterations
+/// are factorisations of a matrix of the size of all bodies; the criterion is nat or nat_max.
 struct NewtonOptions {
   StoppingOptions stopping{Criterion::kNat, 1e-6, 600, 1, 150};
-  double interior_residual = 1e-2;  ///< [-] nat_max at which the interior point stage hands over; 1e-5 when nat_max 1e-8 is wanted
-  int interior_iterations = 200;    ///< at most
+  double interior_residual =
+      1e-2;  ///< [-] nat_max at which the interior point stage hands over; 1e-5 when nat_max 1e-8 is wanted
+  int interior_iterations = 200;                       ///< at most
   LinearLibrary linear_solver = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -19,30 +20,31 @@ struct PoseView {
 
 /// What a finished step gives back to the platform.
 struct StepResult {
-  std::span<const std::int64_t> id;   ///< bodies that this rank owns, prescribed ones included, ascending
-  std::span<const Pose> pose;         ///< at the end of the step
-  std::span<const Twist> velocity;    ///< at the end of the step
-  std::span<const ContactKey> key;    ///< contacts solved on this rank, ascending within each subdomain
-  std::span<const Vec2> impulse;      ///< (r_n, r_t) of each [N s]
+  std::span<const std::int64_t> id;  ///< bodies that this rank owns, prescribed ones included, ascending
+  std::span<const Pose> pose;        ///< at the end of the step
+  std::span<const Twist> velocity;   ///< at the end of the step
+  std::span<const ContactKey> key;   ///< contacts solved on this rank, ascending within each subdomain
+  std::span<const Vec2> impulse;     ///< (r_n, r_t) of each [N s]
 };
 
 /// What an adapter is and can do. Constant during its life.
 struct AdapterDescription {
-  std::string name;                  ///< lower case, for messages and reports
-  std::string version;               ///< of the platform behind it
-  bool distributed_bodies = false;   ///< transport() is there: bodies can move between ranks
-  bool prescribed_motion = false;    ///< kPrescribed bodies may have a velocity other than zero
-  bool clusters = false;             ///< free bodies may have shapes away from their centre of mass (arms)
-  double period = 0.0;               ///< length of the periodic direction x [m]; 0: not periodic
-  double period_origin = 0.0;        ///< centres are kept in [period_origin, period_origin + period)
+  std::string name;                 ///< lower case, for messages and reports
+  std::string version;              ///< of the platform behind it
+  bool distributed_bodies = false;  ///< transport() is there: bodies can move between ranks
+  bool prescribed_motion = false;   ///< kPrescribed bodies may have a velocity other than zero
+  bool clusters = false;            ///< free bodies may have shapes away from their centre of mass (arms)
+  double period = 0.0;              ///< length of the periodic direction x [m]; 0: not periodic
+  double period_origin = 0.0;       ///< centres are kept in [period_origin, period_origin + period)
 };
 
 /// Moves bodies between the hosts of different ranks; shapes travel as bytes that the core never looks into.
 class BodyTransport {
  public:
   virtual ~BodyTransport() = default;
-  /// Appends to `bytes` all that Insert() on another rank needs to build the body: its id, shapes, state, loads and whatever else the
-  /// host's user may have set. A body that changes its owner is packed anew, and replaces the ghost that the new owner's host had.
+  /// Appends to `bytes` all that Insert() on another rank needs to build the body: its id, shapes, state, loads and whatever
+  /// else the host's user may have set. A body that changes its owner is packed anew, and replaces the ghost that the new
+  /// owner's host had.
   virtual void Pack(std::int64_t id, std::vector<std::byte>* bytes) = 0;
   /// Builds the body from the bytes of Pack(). Throws Error if the id is there already or the bytes are not its own.
   virtual void Insert(std::int64_t id, std::span<const std::byte> bytes) = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -27,8 +28,8 @@ struct BodyRecord {
 /// A candidate contact that this rank solved in the last step.
 struct ContactRecord {
   ContactKey key;
-  double gap;              ///< [m] at the detection configuration
-  double final_gap;        ///< [m] at the end of the step
+  double gap;        ///< [m] at the detection configuration
+  double final_gap;  ///< [m] at the end of the step
   Vec2 normal;
   Vec2 point;              ///< [m] where the impulse acts, at the detection configuration
   Vec2 impulse;            ///< (r_n, r_t) [N s]
@@ -41,10 +42,10 @@ struct ContactRecord {
 ///     q_m = q_i + (1 - theta) dt V_i,  contacts at q_m,  V_f = V_i + dt M^-1 f,
 ///     V = V_f + M^-1 H r with v = H^T V in the contact law,  q_{i+1} = q_m + theta dt V.
 /// Each rank has its own adapter, holding the bodies of its subdomains and ghosts; bodies migrate by the adapter's transport().
-/// Before the first step every body is in exactly one rank's host. Between steps the host's user may add bodies on any rank, and edit
-/// or remove a body on the rank that owns it (bodies() lists those): edits of ghosts are not read, removing one is an Error. Shapes and
-/// materials of a body that has ghosts stay what they were when it got them; replace the body by one with a new id.
-/// Reports and results are bitwise the same on any number of ranks. Not for concurrent use of one instance.
+/// Before the first step every body is in exactly one rank's host. Between steps the host's user may add bodies on any rank,
+/// and edit or remove a body on the rank that owns it (bodies() lists those): edits of ghosts are not read, removing one is an
+/// Error. Shapes and materials of a body that has ghosts stay what they were when it got them; replace the body by one with a
+/// new id. Reports and results are bitwise the same on any number of ranks. Not for concurrent use of one instance.
 class TimeStepper {
  public:
   /// Keeps references to both. Throws Error, on all ranks, on impossible options, on more ranks than subdomains and when
@@ -55,12 +56,12 @@ class TimeStepper {
   TimeStepper(TimeStepper&&) noexcept;
 
   /// One step of `dt` [s] > 0. Collective. Throws the same Error on all ranks when an adapter fails or breaks its contract; the
-  /// hosts' poses and velocities are then unchanged (unless it was Commit() that failed on one rank), and once the cause is mended
-  /// the step may be tried again.
+  /// hosts' poses and velocities are then unchanged (unless it was Commit() that failed on one rank), and once the cause is
+  /// mended the step may be tried again.
   const StepReport& Step(double dt);
 
-  /// What a continuation needs beside the hosts' bodies, this rank's part: step and time counters, cuts of the grid, impulses by
-  /// key, interface impulses by (body, subdomain). Factorisations are not in it: none outlives a step.
+  /// What a continuation needs beside the hosts' bodies, this rank's part: step and time counters, cuts of the grid, impulses
+  /// by key, interface impulses by (body, subdomain). Factorisations are not in it: none outlives a step.
   std::vector<std::byte> SaveState() const;
   /// Replaces them by the parts that the ranks of an earlier run saved at the same time, each given to one rank of this run;
   /// the number of ranks may be another one. The bodies are in the hosts, each in one, on any rank, and there are no ghosts.

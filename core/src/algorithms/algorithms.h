@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "interface/augmented_interface.h"
@@ -8,8 +9,8 @@
 
 namespace nscdd {
 
-// Every solver starts from the impulses in `state` (V_E = V_f + M~_E^-1 (H_E r_E - F_E)) and ends with V_E = U, the mean over the
-// copies. `workspace` keeps factorisations between solves; those that need none do not touch it. Collective.
+// Every solver starts from the impulses in `state` (V_E = V_f + M~_E^-1 (H_E r_E - F_E)) and ends with V_E = U, the mean over
+// the copies. `workspace` keeps factorisations between solves; those that need none do not touch it. Collective.
 
 /// NonSmooth Contact Dynamics, the paper's reference: NLGS sweeps of the one subdomain until the criterion holds.
 SolveReport Solve(const PartitionedProblem& problem, const NscdOptions& options, Communicator* communicator,

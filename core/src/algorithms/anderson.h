@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -14,10 +15,11 @@ namespace nscdd {
 
 /// Anderson acceleration (type II; Walker and Ni 2011) of the fixed point s -> g(s) that an iteration is, on the state
 ///     s = (r_E, F_E)   with   <a, b> = sum W_nn a_n b_n + W_tt a_t b_t + M~_E^-1 a_F b_F      (energies)
-/// F is accelerated with r: without it nothing is gained (math.md 10.6). With f = g - s and the differences df, dg of successive
-/// f and g, at most `depth` of them,
+/// F is accelerated with r: without it nothing is gained (math.md 10.6). With f = g - s and the differences df, dg of
+/// successive f and g, at most `depth` of them,
 ///     next s = g - sum c_i dg_i,   c = argmin |f - sum c_i df_i|,   r then clipped to |r_t| <= mu r_n, r_n >= 0
-/// Safeguard: where |f| has grown the differences are forgotten and next s = g. The swept state g is what is measured and returned.
+/// Safeguard: where |f| has grown the differences are forgotten and next s = g. The swept state g is what is measured and
+/// returned.
 class Anderson {
  public:
   static constexpr int kMaxDepth = 8;
@@ -40,11 +42,11 @@ class Anderson {
   struct Part {
     std::vector<std::int32_t> copies;  // of the subdomain, in the interface map
     std::vector<double> weight;
-    std::vector<double> start;         // s
-    std::vector<double> residual;      // f
-    std::vector<double> weighted;      // weight df
-    std::vector<double> images;        // g, ring of depth + 1
-    std::vector<double> differences;   // df, ring of depth
+    std::vector<double> start;        // s
+    std::vector<double> residual;     // f
+    std::vector<double> weighted;     // weight df
+    std::vector<double> images;       // g, ring of depth + 1
+    std::vector<double> differences;  // df, ring of depth
   };
 
   void MakePart(std::size_t e);
@@ -56,7 +58,7 @@ class Anderson {
   std::vector<double> Coefficients() const;
   void Combine(Part* part, const std::vector<double>& c) const;
   void Restart();
-  int Slot(int age) const { return (newest_ + depth_ - age) % depth_; }             // of df
+  int Slot(int age) const { return (newest_ + depth_ - age) % depth_; }  // of df
   int ImageSlot(int age) const { return (image_ + depth_ + 1 - age) % (depth_ + 1); }
 
   const PartitionedProblem& problem_;
@@ -66,12 +68,12 @@ class Anderson {
   int every_ = 1;
   std::vector<Part> parts_;
   bool has_residual_ = false;
-  int count_ = 0;    // differences kept
-  int newest_ = 0;   // slot of the newest df
-  int image_ = 0;    // slot of the newest g
-  double norm2_ = 0.0;                                              // <f, f>
-  std::array<double, kMaxDepth> moments_{};                         // <f, df> by slot
-  std::array<std::array<double, kMaxDepth>, kMaxDepth> gram_{};     // <df, df> by slots
+  int count_ = 0;                                                // differences kept
+  int newest_ = 0;                                               // slot of the newest df
+  int image_ = 0;                                                // slot of the newest g
+  double norm2_ = 0.0;                                           // <f, f>
+  std::array<double, kMaxDepth> moments_{};                      // <f, df> by slot
+  std::array<std::array<double, kMaxDepth>, kMaxDepth> gram_{};  // <df, df> by slots
   std::int64_t extrapolations_ = 0, restarts_ = 0;
 };
 

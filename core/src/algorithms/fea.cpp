@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +9,8 @@
 namespace nscdd {
 namespace {
 
-/// Where the jump of the copies has more than doubled in five or more updates, lambda is too large for what n_GS sweeps undo: the
-/// next five updates are plain (lambda = 0), the next time ten, and so on.
+/// Where the jump of the copies has more than doubled in five or more updates, lambda is too large for what n_GS sweeps undo:
+/// the next five updates are plain (lambda = 0), the next time ten, and so on.
 class JumpGuard {
  public:
   void Watch(int update, double jump) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
 #include "algorithms/algorithms.h"
@@ -30,7 +31,7 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
   Stages stages(problem, options.interface, communicator, workspace, state);
   stages.SweepSubdomains(1);  // status of the contacts
   stages.MeasureJump();
-  stages.UpdateInterface();   // the one interface problem, explicit
+  stages.UpdateInterface();  // the one interface problem, explicit
   const Stages::LocalResult local = stages.SolveSubdomains(options.stopping);
   stages.MeasureJump();
 

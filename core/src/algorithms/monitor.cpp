@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "algorithms/monitor.h"
 
 #include <fmt/format.h>
@@ -16,8 +17,8 @@ namespace nscdd {
 namespace {
 
 /// nat is a mean over the impulses: what light bodies do under heavy ones is lost in it, and is said aloud.
-constexpr double kUneven = 1e3;          // nat_max over the tolerance of nat
-constexpr double kUnevenAtMost = 0.1;    // of the scale of nat_max
+constexpr double kUneven = 1e3;        // nat_max over the tolerance of nat
+constexpr double kUnevenAtMost = 0.1;  // of the scale of nat_max
 
 const char* Name(Criterion criterion) {
   constexpr std::array<const char*, 5> kNames{"nat", "nat_max", "quad", "maxm", "qm16"};
@@ -61,8 +62,10 @@ void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const s
     if (n.worst_contact >= 0 && Exceeds(n.worst, worst_.worst)) worst_ = n;
     const SweepStatistics& s = statistics[e];
     const JumpPart jump = jumps.empty() ? JumpPart{} : jumps[e];
-    parts[e] = {n.sum_e2,   n.sum_r2,         static_cast<double>(s.active), s.sum_dv2, s.sum_dv2_r2, s.sum_rwr, s.sum_wr2,
-                jump.sum_squares, jump.copies, n.worst, s.max_dv, s.max_dv_r};
+    parts[e] = {n.sum_e2,  n.sum_r2,         static_cast<double>(s.active),
+                s.sum_dv2, s.sum_dv2_r2,     s.sum_rwr,
+                s.sum_wr2, jump.sum_squares, jump.copies,
+                n.worst,   s.max_dv,         s.max_dv_r};
   }
   const Part t = ReduceInOrder<9, 3>(parts, communicator_);
   SweepStatistics total;
@@ -153,7 +156,8 @@ void Monitor::Conclude(bool subdomains_converged) {
   } else if (subdomains_converged) {
     Stop(SolveStatus::kIncomplete, fmt::format("every subdomain converged, {} of the sample is {:.3g}", name, measure));
   } else {
-    Stop(SolveStatus::kIncomplete, fmt::format("sweeps of the subdomains reached their cap, {} of the sample is {:.3g}", name, measure));
+    Stop(SolveStatus::kIncomplete,
+         fmt::format("sweeps of the subdomains reached their cap, {} of the sample is {:.3g}", name, measure));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -15,14 +16,15 @@ namespace nscdd {
 class Monitor {
  public:
   /// `keep_best`: the best tested iterate is kept, and returned unless the last one is better.
-  Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator, bool keep_best = false);
+  Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator,
+          bool keep_best = false);
 
   /// Whether this iteration is tested (then sweep it with statistics).
   bool IsDue(int iteration) const { return iteration % options_.test_every == 0 || iteration >= options_.max_iterations; }
 
-  /// Measures after the copies were glued; true when the iteration ends. `statistics` and `jumps` have one part per subdomain, the
-  /// latter may be empty. The measures of a sweep's change (quad, maxm, qm16) also ask for eta < tolerance: they do not see the
-  /// interface; the natural residuals do not need it, V = V_f + M^-1 H r being the mean of the copies. Collective.
+  /// Measures after the copies were glued; true when the iteration ends. `statistics` and `jumps` have one part per subdomain,
+  /// the latter may be empty. The measures of a sweep's change (quad, maxm, qm16) also ask for eta < tolerance: they do not see
+  /// the interface; the natural residuals do not need it, V = V_f + M^-1 H r being the mean of the copies. Collective.
   bool Stops(int iteration, const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
              const PartitionedState& state);
 
@@ -39,8 +41,8 @@ class Monitor {
   void GiveUp(std::string reason) { Stop(SolveStatus::kStalled, std::move(reason)); }
   const Residuals& residuals() const { return report_.residuals; }
 
-  /// The report, with counts of the final state: that of the last test, or the best one kept if it was better. Where the iteration
-  /// diverged and none was kept, all impulses are zero. Collective.
+  /// The report, with counts of the final state: that of the last test, or the best one kept if it was better. Where the
+  /// iteration diverged and none was kept, all impulses are zero. Collective.
   SolveReport Finish(int iterations, std::int64_t sweeps, PartitionedState* state);
 
  private:
@@ -59,8 +61,8 @@ class Monitor {
   StoppingOptions options_;
   Communicator* communicator_;
   SolveReport report_;
-  NaturalParts worst_;   // of this rank's subdomains
-  double first_ = -1.0;  // measure at the first test
+  NaturalParts worst_;           // of this rank's subdomains
+  double first_ = -1.0;          // measure at the first test
   double first_nat_max_ = -1.0;  // at the first measurement; < 0: none yet
   double best_ = 0.0;
   int best_iteration_ = 0;

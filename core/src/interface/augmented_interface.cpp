@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "interface/augmented_interface.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ std::vector<double> RestoringSpeeds(const PartitionedProblem& problem, const Sub
                                     const AugmentedInterfaceOptions& options) {
   std::vector<double> speeds;
   if (options.restoring == 0.0 || problem.dt == 0.0) return speeds;
-  for (const std::int32_t c : p.contact) speeds.push_back(options.restoring * std::max(0.0, -problem.contacts->gap[c]) / problem.dt);
+  for (const std::int32_t c : p.contact)
+    speeds.push_back(options.restoring * std::max(0.0, -problem.contacts->gap[c]) / problem.dt);
   return speeds;
 }
 
@@ -45,7 +47,8 @@ AugmentedInterface::AugmentedInterface(const PartitionedProblem& problem, const 
     : problem_(problem), options_(options), workspace_(workspace) {
   ForgetValues(workspace);
   const double mass = options.reference_mass > 0.0 ? options.reference_mass : problem.mean_mass;
-  for (const SubdomainProblem& p : problem.subdomains) parts_.emplace_back(p, options, mass, RestoringSpeeds(problem, p, options));
+  for (const SubdomainProblem& p : problem.subdomains)
+    parts_.emplace_back(p, options, mass, RestoringSpeeds(problem, p, options));
   if (options.solve == InterfaceSolve::kDirect) {
     if (!workspace->shared) {
       workspace->shared = std::make_unique<KeptSolver>(MakeSharedSolver(options.linear_solver, communicator), communicator);
@@ -61,7 +64,9 @@ AugmentedInterface::~AugmentedInterface() = default;
 void AugmentedInterface::Update(const Gluing& gluing, const std::vector<std::vector<double>>& left, PartitionedState* state) {
   const auto start = std::chrono::steady_clock::now();
   const LinearCounters before = CountersOf(*workspace_);
-  const auto left_of = [&](std::size_t e) { return left.empty() ? std::span<const double>{} : std::span<const double>(left[e]); };
+  const auto left_of = [&](std::size_t e) {
+    return left.empty() ? std::span<const double>{} : std::span<const double>(left[e]);
+  };
   std::vector<std::vector<double>> y;
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     parts_[e].ChooseColumns(state->subdomains[e]);
@@ -72,7 +77,8 @@ void AugmentedInterface::Update(const Gluing& gluing, const std::vector<std::vec
   std::vector<double> change(dofs * map.copies.size());
   if (direct_) {
     const std::vector<std::vector<double>> solution = direct_->Solve(y);
-    for (std::size_t e = 0; e < parts_.size(); ++e) y[e] = parts_[e].ImpulseChange(state->subdomains[e], left_of(e), solution[e]);
+    for (std::size_t e = 0; e < parts_.size(); ++e)
+      y[e] = parts_[e].ImpulseChange(state->subdomains[e], left_of(e), solution[e]);
     for (std::size_t k = 0; k < map.copies.size(); ++k) {
       const auto& copy = map.copies[k];
       const double* from = &y[copy.problem][dofs * parts_[copy.problem].NodeOf(copy.body)];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,9 @@ namespace nscdd {
 
 /// Factorised matrices that outlive a step, and what they cost.
 struct InterfaceWorkspace {
-  std::unique_ptr<KeptSolver> shared;                // direct: the primal matrix
-  std::vector<std::unique_ptr<KeptSolver>> local;    // cg: M_lambda,E of each subdomain
-  std::vector<std::unique_ptr<KeptSolver>> interior; // cg with the Dirichlet preconditioner
+  std::unique_ptr<KeptSolver> shared;                 // direct: the primal matrix
+  std::vector<std::unique_ptr<KeptSolver>> local;     // cg: M_lambda,E of each subdomain
+  std::vector<std::unique_ptr<KeptSolver>> interior;  // cg with the Dirichlet preconditioner
 };
 
 /// What the augmented interface did in one solve.
@@ -30,8 +31,8 @@ struct InterfaceCounters {
   double seconds = 0.0;
 };
 
-/// Stage 2 with the augmented operator. With y_E = R^d + H_E r_E + Lambda G_E v_E (eq. (13), H instead of the printed G: with G' and
-/// friction the printed one has another fixed point), the total interface impulse F solves
+/// Stage 2 with the augmented operator. With y_E = R^d + H_E r_E + Lambda G_E v_E (eq. (13), H instead of the printed G: with
+/// G' and friction the printed one has another fixed point), the total interface impulse F solves
 ///     X_lambda F = sum_E A_E M_lambda,E^-1 y_E,     X_lambda = sum_E A_E M_lambda,E^-1 A_E^T,                (13), (14)
 /// or, equivalently and without any A, the primal problem
 ///     (sum_E B_E^T M_lambda,E B_E) V~ = sum_E B_E^T y_E,   F_E = y_E - M_lambda,E V~  on the copies;
@@ -43,8 +44,8 @@ class AugmentedInterface {
                      InterfaceWorkspace* workspace);
   ~AugmentedInterface();
 
-  /// One update after the sweeps. `gluing` has just measured the jump (its means serve the spins). `left`: tangential velocities
-  /// that the local solves left, per subdomain and contact; read only if NeedsLeftVelocities(). Collective.
+  /// One update after the sweeps. `gluing` has just measured the jump (its means serve the spins). `left`: tangential
+  /// velocities that the local solves left, per subdomain and contact; read only if NeedsLeftVelocities(). Collective.
   void Update(const Gluing& gluing, const std::vector<std::vector<double>>& left, PartitionedState* state);
 
   bool NeedsLeftVelocities() const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "interface/augmented_subdomain.h"
 
 #include <algorithm>
@@ -36,10 +37,13 @@ void AugmentedSubdomain::MakeColumns(const std::vector<Row>& rows, LambdaScale s
   constexpr int kInertias = Inertias(Row::kModel);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Row& c = rows[k];
-    const auto share = [&](std::int32_t copy) { return problem_.multiplicity.empty() ? 1.0 : 1.0 / problem_.multiplicity[copy]; };
+    const auto share = [&](std::int32_t copy) {
+      return problem_.multiplicity.empty() ? 1.0 : 1.0 / problem_.multiplicity[copy];
+    };
     const Delassus w = DelassusBlock(c, &problem_.inverse_mass[kInertias * c.a], &problem_.inverse_mass[kInertias * c.b],
                                      share(c.a), share(c.b));
-    Column normal{c.a, c.b, 0.0, {-c.n.x, -c.n.y, 0.0}, {c.n.x, c.n.y, 0.0}, -c.offset, true, static_cast<std::int32_t>(k), true};
+    Column normal{c.a, c.b, 0.0, {-c.n.x, -c.n.y, 0.0}, {c.n.x, c.n.y, 0.0}, -c.offset, true, static_cast<std::int32_t>(k),
+                  true};
     if constexpr (HasArms(Row::kModel)) {
       normal.ga[2] = -c.turn_na;
       normal.gb[2] = c.turn_nb;
@@ -63,8 +67,8 @@ void AugmentedSubdomain::ChooseColumns(const SubdomainState& state) {
     const double* r = &state.impulse[unknowns * c.contact];
     bool on = r[0] > 0.0;
     if (!c.is_normal) {
-      const double friction = HasArms(problem_.model) ? problem_.friction_arms[c.contact].friction
-                                                      : problem_.friction[c.contact].friction;
+      const double friction =
+          HasArms(problem_.model) ? problem_.friction_arms[c.contact].friction : problem_.friction[c.contact].friction;
       c.is_known = std::abs(r[1]) < friction * r[0];  // sticks: no velocity left
       if (compatibility_ == Compatibility::kSticking) on = on && c.is_known;
     }

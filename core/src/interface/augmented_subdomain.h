@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,13 @@ namespace nscdd {
 
 /// One subdomain in the augmented interface problem: the operator
 ///     M_lambda,E = M~_E + Lambda G_E G_E^T     (symmetric positive definite for every lambda >= 0; eq. (12) of the paper)
-/// on the velocities of its free copies ("nodes"). G_E has the columns of H_E that the compatibility names, of contacts that are
-/// active now. Prescribed copies have no node: their velocities are known. With normals of disks alone the spins decouple from it,
-/// and a node has 2 unknowns instead of 3 (their interface problem is the plain mean).
+/// on the velocities of its free copies ("nodes"). G_E has the columns of H_E that the compatibility names, of contacts that
+/// are active now. Prescribed copies have no node: their velocities are known. With normals of disks alone the spins decouple
+/// from it, and a node has 2 unknowns instead of 3 (their interface problem is the plain mean).
 class AugmentedSubdomain {
  public:
-  /// `reference_mass` [kg] is what lambda multiplies with LambdaScale::kMass. `restoring` [m/s], per contact of the subdomain or
-  /// empty, is added to v_E on normals.
+  /// `reference_mass` [kg] is what lambda multiplies with LambdaScale::kMass. `restoring` [m/s], per contact of the subdomain
+  /// or empty, is added to v_E on normals.
   AugmentedSubdomain(const SubdomainProblem& problem, const AugmentedInterfaceOptions& options, double reference_mass,
                      std::vector<double> restoring = {});
 
@@ -33,17 +34,20 @@ class AugmentedSubdomain {
   void ChooseColumns(const SubdomainState& state);
 
   /// Triplets of the lower triangle, for all candidate contacts; node i becomes number[i].
-  void AppendPattern(std::span<const std::int32_t> number, std::vector<std::int32_t>* row, std::vector<std::int32_t>* column) const;
+  void AppendPattern(std::span<const std::int32_t> number, std::vector<std::int32_t>* row,
+                     std::vector<std::int32_t>* column) const;
   /// Their values with the columns of now.
   void AppendValues(std::span<const std::int32_t> number, std::vector<double>* values) const;
 
   /// M~_E V_E + Lambda G_E (v_E - v_p), dofs per node: y_E of eq. (13) less the interface impulse. v_E by the option
-  /// local_velocity; `left` holds the tangential velocities that the local solves left (per contact), if they are needed; v_p is the
-  /// part of prescribed bodies.
+  /// local_velocity; `left` holds the tangential velocities that the local solves left (per contact), if they are needed; v_p
+  /// is the part of prescribed bodies.
   std::vector<double> RightHandSide(const SubdomainState& state, std::span<const double> left) const;
 
-  /// Change of the interface impulse that goes with the solution V~ (dofs per node), dF_E = M~_E (V_E - V~) + Lambda G_E (v_E - G^T V~).
-  std::vector<double> ImpulseChange(const SubdomainState& state, std::span<const double> left, std::span<const double> solution) const;
+  /// Change of the interface impulse that goes with the solution V~ (dofs per node), dF_E = M~_E (V_E - V~) + Lambda G_E (v_E -
+  /// G^T V~).
+  std::vector<double> ImpulseChange(const SubdomainState& state, std::span<const double> left,
+                                    std::span<const double> solution) const;
 
   /// M_lambda,E x.
   std::vector<double> Multiply(std::span<const double> x) const;

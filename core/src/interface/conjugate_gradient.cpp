@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "interface/conjugate_gradient.h"
 
 #include <algorithm>
@@ -136,9 +137,8 @@ std::vector<double> AugmentedInterface::ConjugateGradient::Precondition(const st
   return z;
 }
 
-AugmentedInterface::ConjugateGradient::Products AugmentedInterface::ConjugateGradient::Reduce(const std::vector<double>& r,
-                                                                                              const std::vector<double>& z,
-                                                                                              const std::vector<double>& w) const {
+AugmentedInterface::ConjugateGradient::Products AugmentedInterface::ConjugateGradient::Reduce(
+    const std::vector<double>& r, const std::vector<double>& z, const std::vector<double>& w) const {
   std::vector<ReductionPart<3, 0>> parts(parts_.size());
   for (auto& part : parts) part = {};
   for (std::size_t k = 0; k < problem_.interface.copies.size(); ++k) {
@@ -165,8 +165,8 @@ std::vector<double> AugmentedInterface::ConjugateGradient::Solve(const std::vect
   const double target = options_.cg_tolerance * std::sqrt(Reduce(jump, jump, jump).rr);
   std::vector<double> x(jump.size()), res = jump;
   iterations_ = 0;
-  // The recurrence's residual drifts from the true one, and its step length may lose its sign: begin anew from the true residual
-  // as long as that helps.
+  // The recurrence's residual drifts from the true one, and its step length may lose its sign: begin anew from the true
+  // residual as long as that helps.
   double before = std::numeric_limits<double>::infinity();
   for (converged_ = false; !converged_ && iterations_ < options_.cg_max_iterations;) {
     Iterate(target, &x, &res);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -12,8 +13,8 @@ class CopyAverage {
  public:
   CopyAverage(const InterfaceMap& map, int dofs, Communicator* communicator);
 
-  /// Each copy's numbers become the mean over the copies of its body, added in the order of their subdomains. One exchange among
-  /// neighbours; collective among them.
+  /// Each copy's numbers become the mean over the copies of its body, added in the order of their subdomains. One exchange
+  /// among neighbours; collective among them.
   void Average(std::vector<double>* values);
   /// values -= their average: the projection on zero sums per body.
   void Project(std::vector<double>* values);

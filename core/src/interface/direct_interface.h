@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -8,9 +9,9 @@ namespace nscdd {
 
 /// The primal problem (sum_E B_E^T M_lambda,E B_E) V~ = sum_E B_E^T y_E over all subdomains.
 ///
-/// With Eigen every rank has the whole matrix and solves it (the same bits on all of them); with MUMPS on several ranks each has the
-/// entries of its subdomains, while right-hand side and solution are still complete everywhere. Where a rank's memory does not allow
-/// vectors of all bodies, use the conjugate gradient.
+/// With Eigen every rank has the whole matrix and solves it (the same bits on all of them); with MUMPS on several ranks each
+/// has the entries of its subdomains, while right-hand side and solution are still complete everywhere. Where a rank's memory
+/// does not allow vectors of all bodies, use the conjugate gradient.
 class AugmentedInterface::Direct {
  public:
   Direct(const PartitionedProblem& problem, const std::vector<AugmentedSubdomain>& parts, Communicator* communicator,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "interface/interface_map.h"
 
 #include <algorithm>
@@ -21,8 +22,9 @@ std::vector<LocalCopy> SharedCopies(const std::vector<SubdomainProblem>& problem
       copies.push_back({row, problems[p].subdomain, static_cast<std::int32_t>(p), static_cast<std::int32_t>(b)});
     }
   }
-  std::sort(copies.begin(), copies.end(),
-            [](const LocalCopy& a, const LocalCopy& b) { return std::pair(a.row, a.subdomain) < std::pair(b.row, b.subdomain); });
+  std::sort(copies.begin(), copies.end(), [](const LocalCopy& a, const LocalCopy& b) {
+    return std::pair(a.row, a.subdomain) < std::pair(b.row, b.subdomain);
+  });
   return copies;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,7 @@ struct InterfaceMap {
 
 /// `problems` are the subdomains of block `rank` of `blocks`. Tables of all ranks ascend by body id, so both ends of a message
 /// list the same bodies in the same order.
-InterfaceMap MakeInterfaceMap(const std::vector<SubdomainProblem>& problems, const Sharing& sharing, const Blocks& blocks, int rank);
+InterfaceMap MakeInterfaceMap(const std::vector<SubdomainProblem>& problems, const Sharing& sharing, const Blocks& blocks,
+                              int rank);
 
 }  // namespace nscdd

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -6,8 +7,8 @@
 
 namespace nscdd {
 
-/// Eigen: simplicial LDL^T with AMD order for positive definite matrices, supernodal LU with partial pivoting and COLAMD order for
-/// general ones.
+/// Eigen: simplicial LDL^T with AMD order for positive definite matrices, supernodal LU with partial pivoting and COLAMD order
+/// for general ones.
 std::unique_ptr<LinearSolver> MakeEigenSolver(Symmetry symmetry);
 
 }  // namespace nscdd

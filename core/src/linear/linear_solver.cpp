@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "linear/linear_solver.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 class SharedMumps final : public LinearSolver {
  public:
   explicit SharedMumps(Communicator* communicator)
-      : communicator_(communicator), solver_(MakeMumpsSolver(*FortranHandleOf(*communicator), true, Symmetry::kPositiveDefinite)) {}
+      : communicator_(communicator),
+        solver_(MakeMumpsSolver(*FortranHandleOf(*communicator), true, Symmetry::kPositiveDefinite)) {}
 
   bool is_distributed() const override { return true; }
   void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) override {

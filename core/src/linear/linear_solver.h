@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,8 @@ class LinearSolver {
 
   /// New pattern of an n x n matrix; rows and columns count from 0.
   virtual void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) = 0;
-  /// Numbers for the triplets of Analyse(). Throws Error if the matrix is not positive definite, or is singular, or memory runs out.
+  /// Numbers for the triplets of Analyse(). Throws Error if the matrix is not positive definite, or is singular, or memory runs
+  /// out.
   virtual void Factorise(std::span<const double> values) = 0;
   /// x := A^-1 x.
   virtual void Solve(std::span<double> x) = 0;
@@ -48,7 +50,8 @@ class LinearSolver {
 /// kAuto is Eigen, whoever started the program: results must not depend on the launcher.
 std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry = Symmetry::kPositiveDefinite);
 
-/// A solver for a positive definite matrix that belongs to all ranks: MUMPS over the ranks, or Eigen with the whole matrix on each of them.
+/// A solver for a positive definite matrix that belongs to all ranks: MUMPS over the ranks, or Eigen with the whole matrix on
+/// each of them.
 std::unique_ptr<LinearSolver> MakeSharedSolver(LinearLibrary library, Communicator* communicator);
 
 }  // namespace nscdd

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "linear/mumps_solver.h"
 
 #include <dmumps_c.h>
@@ -47,8 +48,8 @@ class MumpsSolver final : public LinearSolver {
     Check("initialisation");
     for (const int stream : {1, 2, 3}) Control(stream) = -1;  // it prints nothing
     Control(4) = 0;
-    Control(14) = 50;                     // [%] room beyond the estimate
-    Control(18) = distributed_ ? 3 : 0;   // entries given by all ranks, or by rank 0
+    Control(14) = 50;                    // [%] room beyond the estimate
+    Control(18) = distributed_ ? 3 : 0;  // entries given by all ranks, or by rank 0
   }
   ~MumpsSolver() override {
     id_.job = kTerminate;

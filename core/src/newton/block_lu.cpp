@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "newton/block_lu.h"
 
 #include <Eigen/OrderingMethods>
@@ -137,9 +138,11 @@ void BlockLu<B>::Scatter(const BlockMatrix<B>& matrix) {
 template <int B>
 bool BlockLu<B>::EliminateRow(int i) {
   constexpr int kSize = B * B;
-  for (std::int32_t k = lower_.begin[i]; k < lower_.begin[i + 1]; ++k) block_in_row_[lower_.column[k]] = &lower_.values[kSize * k];
+  for (std::int32_t k = lower_.begin[i]; k < lower_.begin[i + 1]; ++k)
+    block_in_row_[lower_.column[k]] = &lower_.values[kSize * k];
   block_in_row_[i] = &diagonal_[kSize * i];
-  for (std::int32_t k = upper_.begin[i]; k < upper_.begin[i + 1]; ++k) block_in_row_[upper_.column[k]] = &upper_.values[kSize * k];
+  for (std::int32_t k = upper_.begin[i]; k < upper_.begin[i + 1]; ++k)
+    block_in_row_[upper_.column[k]] = &upper_.values[kSize * k];
   for (std::int32_t k = lower_.begin[i]; k < lower_.begin[i + 1]; ++k) {
     const std::int32_t pivot = lower_.column[k];
     double* l = &lower_.values[kSize * k];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ struct ContactStiffness {
 
 inline Local Multiply(const ContactStiffness& e, Local x) { return {e.nn * x.n, e.tn * x.n + e.tt * x.t}; }
 
-/// The linear systems (M + H E H^T) dV = b of one subdomain: E one ContactStiffness a contact, so they are not symmetric. Prescribed
-/// bodies have dV = 0.
+/// The linear systems (M + H E H^T) dV = b of one subdomain: E one ContactStiffness a contact, so they are not symmetric.
+/// Prescribed bodies have dV = 0.
 template <class Row>
 class BodySystem {
  public:
@@ -53,7 +54,8 @@ class BodySystem {
   /// out += H_c r on free bodies.
   void AddForce(std::size_t c, Local r, std::vector<double>* out) const {
     const Row& row = rows_[c];
-    AddImpulse(row, r, &is_free_[kInertias * row.a], &is_free_[kInertias * row.b], &(*out)[kDofs * row.a], &(*out)[kDofs * row.b]);
+    AddImpulse(row, r, &is_free_[kInertias * row.a], &is_free_[kInertias * row.b], &(*out)[kDofs * row.a],
+               &(*out)[kDofs * row.b]);
   }
   /// 1/M of component d of body b; 0: prescribed.
   double InverseMass(std::size_t b, int d) const { return problem_.inverse_mass[kInertias * b + (d == 2)]; }

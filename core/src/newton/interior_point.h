@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -10,11 +11,12 @@
 namespace nscdd {
 
 /// Interior point iterations on the law of each contact as complementary pairs (2D: exact, no linearised cone):
-///     0 <= r_n _|_ y = v_n + b_n >= 0;   0 <= p _|_ a_- = mu r_n + r_t >= 0;   0 <= q _|_ a_+ = mu r_n - r_t >= 0;   v_t = p - q
+///     0 <= r_n _|_ y = v_n + b_n >= 0;   0 <= p _|_ a_- = mu r_n + r_t >= 0;   0 <= q _|_ a_+ = mu r_n - r_t >= 0;   v_t = p -
+///     q
 /// (r_n, y only, where mu = 0) with V = V_f + M^-1 H r. Predictor and corrector of Mehrotra (1992) on the residuals
 ///     R_2 = y - v_n - b_n,   R_3 = p - q - v_t,
-/// with a proximal term rho W in the law, centred at the r of now: it keeps the central path, which folds with friction, from doing
-/// so; and a barrier that never runs ahead of |R|. Products are measured in s_c = velocity scale^2 / W_nn.
+/// with a proximal term rho W in the law, centred at the r of now: it keeps the central path, which folds with friction, from
+/// doing so; and a barrier that never runs ahead of |R|. Products are measured in s_c = velocity scale^2 / W_nn.
 template <class Row>
 class InteriorPoint {
  public:

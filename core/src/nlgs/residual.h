@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct ResidualScales {
 struct NaturalParts {
   double sum_e2 = 0.0;
   double sum_r2 = 0.0;
-  double worst = 0.0;            ///< [m/s], not yet divided by the scale
+  double worst = 0.0;               ///< [m/s], not yet divided by the scale
   std::int64_t worst_contact = -1;  ///< row of the rank's table of contacts
 };
 

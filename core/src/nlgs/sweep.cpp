@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nlgs/sweep.h"
 
 #include <vector>
@@ -61,7 +62,8 @@ Local SolveContact(const Row& c, const double* inverse_mass, double* velocity, d
 }
 
 template <bool kStatistics, class Row>
-void SweepRows(const std::vector<Row>& rows, const double* inverse_mass, double* velocity, double* impulse, SweepStatistics* s) {
+void SweepRows(const std::vector<Row>& rows, const double* inverse_mass, double* velocity, double* impulse,
+               SweepStatistics* s) {
   constexpr int kUnknowns = Unknowns(Row::kModel);
   for (const Row& c : rows) {
     const Local before = ImpulseOf<Row>(impulse);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "parallel/mpi_handle.h"
 
 #include "nscdd/mpi_communicator.h"

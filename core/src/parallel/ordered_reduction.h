@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -18,11 +19,12 @@ using ReductionPart = std::array<double, kSums + kMaxima>;
 /// Whether `value` takes the place of the largest one so far: a NaN does, and then stays.
 inline bool Exceeds(double value, double largest) { return !(value <= largest) && !std::isnan(largest); }
 
-/// Reduces the parts of all subdomains. `parts` are those of this rank's subdomains in ascending order, and ranks hold ascending
-/// blocks of subdomains: numbers are therefore added in the order of the subdomains, whatever the number of ranks. A NaN anywhere
-/// makes the result NaN, in maxima too. Collective, one call.
+/// Reduces the parts of all subdomains. `parts` are those of this rank's subdomains in ascending order, and ranks hold
+/// ascending blocks of subdomains: numbers are therefore added in the order of the subdomains, whatever the number of ranks. A
+/// NaN anywhere makes the result NaN, in maxima too. Collective, one call.
 template <std::size_t kSums, std::size_t kMaxima>
-ReductionPart<kSums, kMaxima> ReduceInOrder(const std::vector<ReductionPart<kSums, kMaxima>>& parts, Communicator* communicator) {
+ReductionPart<kSums, kMaxima> ReduceInOrder(const std::vector<ReductionPart<kSums, kMaxima>>& parts,
+                                            Communicator* communicator) {
   constexpr std::size_t kSize = kSums + kMaxima;
   ReductionPart<kSums, kMaxima> total{};
   const auto add = [&total](const double* part) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "partition/distribution.h"
 
 #include <fmt/format.h>
@@ -16,8 +17,10 @@ namespace {
 enum class Record : std::uint8_t { kBody, kRemoval };
 
 [[noreturn]] void RefuseTwice(std::int64_t id) {
-  throw Error(fmt::format("body {} is in the hosts of several ranks; ids are unique and every new body is in exactly one host, the "
-                          "solver makes the ghosts", id));
+  throw Error(
+      fmt::format("body {} is in the hosts of several ranks; ids are unique and every new body is in exactly one host, the "
+                  "solver makes the ghosts",
+                  id));
 }
 
 void CheckSize(const std::vector<std::byte>& parcel, int rank) {
@@ -32,11 +35,12 @@ bool Contains(const std::vector<int>& ranks, int rank) { return std::binary_sear
 
 }  // namespace
 
-// The site of two disks is the mid-point of their centres: (rho_i + rho_j + alert) / 2 from a disk's centre at most; that of a disk
-// and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.
+// The site of two disks is the mid-point of their centres: (rho_i + rho_j + alert) / 2 from a disk's centre at most; that of a
+// disk and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.
 double Reach::Of(double radius, double bounding_radius) const {
   const double half = 0.5 * (largest_radius + alert);
-  const double exact = bounding_radius == radius ? std::max(radius + alert, 0.5 * radius + half) : bounding_radius + std::max(alert, half);
+  const double exact =
+      bounding_radius == radius ? std::max(radius + alert, 0.5 * radius + half) : bounding_radius + std::max(alert, half);
   return exact * (1.0 + 1e-6);  // rounding of sites and gaps
 }
 
@@ -49,7 +53,8 @@ void Distribution::TakeOver(BodyTable read) {
   SortById(&next);
   const auto twice = std::adjacent_find(next.bodies.id.begin(), next.bodies.id.end());
   if (twice != next.bodies.id.end()) {
-    throw Error(fmt::format("adapter '{}', ReadBodies: body {} is there twice; ids are unique", adapter_->Describe().name, *twice));
+    throw Error(
+        fmt::format("adapter '{}', ReadBodies: body {} is there twice; ids are unique", adapter_->Describe().name, *twice));
   }
   removed_.clear();
   removed_from_.clear();
@@ -85,8 +90,10 @@ void Distribution::Recognise(Population* next) {
     newcomers_ -= is_here;
     if (known_.owner[row] != communicator_->rank()) {
       if (!is_here) {
-        throw Error(fmt::format("body {} was removed from the host of rank {}, which holds a ghost of it; remove it on rank {}, "
-                                "its owner", id, communicator_->rank(), known_.owner[row]));
+        throw Error(
+            fmt::format("body {} was removed from the host of rank {}, which holds a ghost of it; remove it on rank {}, "
+                        "its owner",
+                        id, communicator_->rank(), known_.owner[row]));
       }
       keep[now] = 0;
     } else if (is_here) {
@@ -134,9 +141,9 @@ void Distribution::PackBody(std::size_t row, int home, const std::vector<int>& h
   const auto contacts = std::equal_range(by_carrier.contacts.begin(), by_carrier.contacts.end(), CachedImpulse{id, {}, {}},
                                          [](const auto& a, const auto& b) { return a.carrier < b.carrier; });
   out.PutSpan(std::span<const CachedImpulse>(contacts.first, contacts.second));
-  const auto copies = std::equal_range(by_carrier.interfaces.begin(), by_carrier.interfaces.end(),
-                                       CachedInterfaceImpulse{id, 0, {}},
-                                       [](const auto& a, const auto& b) { return a.body < b.body; });
+  const auto copies =
+      std::equal_range(by_carrier.interfaces.begin(), by_carrier.interfaces.end(), CachedInterfaceImpulse{id, 0, {}},
+                       [](const auto& a, const auto& b) { return a.body < b.body; });
   out.PutSpan(std::span<const CachedInterfaceImpulse>(copies.first, copies.second));
   out.Put(with_shapes);
   if (!with_shapes) return;
@@ -155,10 +162,11 @@ void Distribution::PackAll(const std::vector<Pose>& detection, const Grid& grid,
     const Vec2 centre = Centre(detection[row]);
     const int home = blocks.RankOf(grid.CellOf(centre));
     std::vector<int> needed{home};
-    grid.ForEachCellNear(centre, reach.Of(population_.bodies.radius[row], population_.bodies.bounding_radius[row]), [&](int cell) {
-      const int rank = blocks.RankOf(cell);
-      if (needed.back() != rank) needed.push_back(rank);
-    });
+    grid.ForEachCellNear(centre, reach.Of(population_.bodies.radius[row], population_.bodies.bounding_radius[row]),
+                         [&](int cell) {
+                           const int rank = blocks.RankOf(cell);
+                           if (needed.back() != rank) needed.push_back(rank);
+                         });
     std::sort(needed.begin(), needed.end());
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
 

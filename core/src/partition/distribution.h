@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ class Distribution {
  public:
   Distribution(PlatformAdapter* adapter, Communicator* communicator) : adapter_(adapter), communicator_(communicator) {}
 
-  /// The host's bodies: rows of owned and of new ones are taken over, ghosts' rows wait for their owners' words. Local, and may be
-  /// repeated until Move() has succeeded: a step that failed on another rank leaves no trace.
+  /// The host's bodies: rows of owned and of new ones are taken over, ghosts' rows wait for their owners' words. Local, and may
+  /// be repeated until Move() has succeeded: a step that failed on another rank leaves no trace.
   void TakeOver(BodyTable read);
 
   /// The next TakeOver() meets every body for the first time; each is then in one host, without ghosts.
@@ -44,7 +45,8 @@ class Distribution {
   /// Moves bodies so that every rank holds what its subdomains need at the configuration `detection` (of the owned rows, in
   /// order). `cache` holds the owned bodies' impulses before, and those of all held bodies after. Collective; when a host
   /// fails, the same Error is thrown on all ranks, every body is in some host, and TakeOver() and Move() may be tried again.
-  void Move(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach, ImpulseCache* cache);
+  void Move(const std::vector<Pose>& detection, const Grid& grid, const Blocks& blocks, const Reach& reach,
+            ImpulseCache* cache);
 
   /// Completes a list of (row, subdomain) of this rank's contacts to the sharing of all held bodies. Collective.
   Sharing Share(std::vector<std::pair<std::int32_t, std::int32_t>> pairs) const;
@@ -81,7 +83,7 @@ class Distribution {
   Population known_;      // after the last Move(); what TakeOver() compares with
   bool settled_ = false;  // population_ is that of a finished Move()
   std::size_t newcomers_ = 0;
-  std::vector<std::int64_t> removed_;          // owned bodies that the host's user removed
+  std::vector<std::int64_t> removed_;           // owned bodies that the host's user removed
   std::vector<std::vector<int>> removed_from_;  // their other holders
   std::vector<std::int64_t> leaving_;           // bodies that this host need not hold any more
   std::vector<Arrival> arrivals_;

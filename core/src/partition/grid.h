@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -6,9 +7,9 @@
 
 namespace nscdd {
 
-/// Box of the mobile bodies' centres, cut into nx x ny equal cells; cell (ix, iy) is subdomain ix + nx iy. A point on a cut is in
-/// the upper cell; points outside the box are in the nearest cell, so the cells at the border reach to infinity. With a period,
-/// x is wrapped into [origin, origin + period), which the cells then cover.
+/// Box of the mobile bodies' centres, cut into nx x ny equal cells; cell (ix, iy) is subdomain ix + nx iy. A point on a cut is
+/// in the upper cell; points outside the box are in the nearest cell, so the cells at the border reach to infinity. With a
+/// period, x is wrapped into [origin, origin + period), which the cells then cover.
 class Grid {
  public:
   Grid() = default;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,10 @@
 
 namespace nscdd {
 
-/// Which subdomains hold a contact of each body of a rank's table: for row i, ascending numbers. Their count is the multiplicity
-/// m_i. Prescribed bodies have none: they have no unknown, so nothing to glue.
+/// Which subdomains hold a contact of each body of a rank's table: for row i, ascending numbers. Their count is the
+/// multiplicity m_i. Prescribed bodies have none: they have no unknown, so nothing to glue.
 struct Sharing {
-  std::vector<std::int32_t> begin{0};     ///< one more than rows
+  std::vector<std::int32_t> begin{0};  ///< one more than rows
   std::vector<std::int32_t> subdomain;
 
   std::span<const std::int32_t> Of(std::size_t row) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/contact_problem.h"
 
 #include <fmt/format.h>
@@ -31,8 +32,8 @@ void CheckBodies(const ContactProblem& p) {
           "contact problem: mass, inertia, free_velocity and impulse need one entry per body");
   for (std::size_t i = 0; i < n; ++i) {
     Require(p.mass[i] > 0.0 && p.inertia[i] > 0.0 && std::isinf(p.mass[i]) == std::isinf(p.inertia[i]),
-            "contact problem: body {} has mass {} and inertia {}; both are positive, or both +inf if its motion is prescribed", i,
-            p.mass[i], p.inertia[i]);
+            "contact problem: body {} has mass {} and inertia {}; both are positive, or both +inf if its motion is prescribed",
+            i, p.mass[i], p.inertia[i]);
     const Twist& v = p.free_velocity[i];
     const Wrench& f = p.impulse[i];
     Require(std::isfinite(v.vx + v.vy + v.spin) && (std::isinf(p.mass[i]) || std::isfinite(f.fx + f.fy + f.torque)),
@@ -55,10 +56,13 @@ void CheckContact(const ContactProblem& p, std::size_t c) {
           "contact problem: contact {} has a gap, lever or offset that is not finite", c);
   Require(!t.has_arms() || std::isfinite(t.arm_a[c].x + t.arm_a[c].y + t.arm_b[c].x + t.arm_b[c].y),
           "contact problem: contact {} has an arm that is not finite", c);
-  Require(t.friction[c] >= 0.0 && std::isfinite(t.friction[c]), "contact problem: contact {} has friction {}; it must be finite and not "
-          "negative", c, t.friction[c]);
+  Require(t.friction[c] >= 0.0 && std::isfinite(t.friction[c]),
+          "contact problem: contact {} has friction {}; it must be finite and not "
+          "negative",
+          c, t.friction[c]);
   Require(p.subdomain.empty() || (p.subdomain[c] >= 0 && p.subdomain[c] < 1'000'000),
-          "contact problem: contact {} is in subdomain {}; numbers go from 0 to 999999", c, p.subdomain.empty() ? 0 : p.subdomain[c]);
+          "contact problem: contact {} is in subdomain {}; numbers go from 0 to 999999", c,
+          p.subdomain.empty() ? 0 : p.subdomain[c]);
 }
 
 void CheckContacts(const ContactProblem& p) {
@@ -158,7 +162,11 @@ ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOpti
   const PartitionedProblem& problem = assembly.problem;
   SerialCommunicator serial;
   InterfaceWorkspace workspace;
-  Require(problem.subdomains.size() == 1 || std::visit([](const auto& o) { return requires { o.partition; }; }, options),
+  Require(problem.subdomains.size() == 1 || std::visit(
+                                                [](const auto& o) {
+                                                  return requires { o.partition; };
+                                                },
+                                                options),
           "contact problem: nscd and newton solve one subdomain; use nscdd for several");
 
   ContactSolution solution;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -7,8 +8,8 @@
 
 namespace nscdd {
 
-/// First iterate from warm impulses, (r_n, r_t) per row of the rank's table of contacts (empty: r = 0), and interface impulses F = 0:
-/// r clipped to the cone, V_E = V_f + M~^-1 H r. Set F afterwards with Gluing::SubtractImpulse.
+/// First iterate from warm impulses, (r_n, r_t) per row of the rank's table of contacts (empty: r = 0), and interface impulses
+/// F = 0: r clipped to the cone, V_E = V_f + M~^-1 H r. Set F afterwards with Gluing::SubtractImpulse.
 PartitionedState InitialState(const PartitionedProblem& problem, std::span<const Vec2> warm);
 
 /// Writes the velocities of the copies of free bodies into `velocity` (by row of the rank's table of bodies). A spin that is no

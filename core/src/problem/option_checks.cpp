@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "problem/option_checks.h"
 
 #include <fmt/format.h>
@@ -38,7 +39,8 @@ void Check(const AugmentedInterfaceOptions& o) {
   Require(o.reference_mass >= 0.0 && std::isfinite(o.reference_mass),
           fmt::format("reference_mass is {} kg; it must not be negative (0: mean mass)", o.reference_mass));
   Require(o.restoring >= 0.0 && o.restoring <= 1.0, fmt::format("restoring is {}; it must be in [0, 1]", o.restoring));
-  Require(o.cg_tolerance > 0.0 && o.cg_tolerance < 1.0, fmt::format("cg_tolerance is {}; it must be in (0, 1)", o.cg_tolerance));
+  Require(o.cg_tolerance > 0.0 && o.cg_tolerance < 1.0,
+          fmt::format("cg_tolerance is {}; it must be in (0, 1)", o.cg_tolerance));
   RequireAtLeast("cg_max_iterations", o.cg_max_iterations, 1);
 }
 
@@ -79,8 +81,9 @@ void Check(const IeaOptions& o) {
 
 void Check(const NewtonOptions& o) {
   Check(o.stopping);
-  Require(o.stopping.criterion == Criterion::kNat || o.stopping.criterion == Criterion::kNatMax,
-          "criterion of solver newton must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it has none");
+  Require(
+      o.stopping.criterion == Criterion::kNat || o.stopping.criterion == Criterion::kNatMax,
+      "criterion of solver newton must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it has none");
   Require(o.interior_residual >= 0.0, fmt::format("interior_residual is {}; it must not be negative", o.interior_residual));
   RequireAtLeast("interior_iterations", o.interior_iterations, 0);
 }
@@ -106,7 +109,8 @@ void CheckAlgorithm(const AlgorithmOptions& algorithm) {
 void CheckStepping(const SteppingOptions& s) {
   Require(s.theta >= 0.5 && s.theta <= 1.0, fmt::format("theta is {}; it must be in [0.5, 1]", s.theta));
   Require(std::isfinite(s.alert_distance), "alert_distance must be finite");
-  Require(s.feedback_beta >= 0.0 && s.feedback_beta <= 1.0, fmt::format("feedback_beta is {}; it must be in [0, 1]", s.feedback_beta));
+  Require(s.feedback_beta >= 0.0 && s.feedback_beta <= 1.0,
+          fmt::format("feedback_beta is {}; it must be in [0, 1]", s.feedback_beta));
   Require(s.feedback_slop >= 0.0, fmt::format("feedback_slop is {} m; it must not be negative", s.feedback_slop));
   Require(s.feedback_cap >= 0.0, fmt::format("feedback_cap is {} m/s; it must not be negative", s.feedback_cap));
 }

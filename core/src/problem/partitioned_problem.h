@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -15,10 +16,10 @@ struct PartitionedProblem {
   std::vector<SubdomainProblem> subdomains;  ///< ascending; ranks hold ascending blocks
   InterfaceMap interface;
   ResidualScales scales;
-  double dt = 0.0;                           ///< [s]; 0: not a step of time
-  double mean_mass = 0.0;                    ///< [kg] of free bodies
-  std::int64_t contact_count = 0;            ///< of all ranks
-  const ContactTable* contacts = nullptr;    ///< names the worst contact
+  double dt = 0.0;                         ///< [s]; 0: not a step of time
+  double mean_mass = 0.0;                  ///< [kg] of free bodies
+  std::int64_t contact_count = 0;          ///< of all ranks
+  const ContactTable* contacts = nullptr;  ///< names the worst contact
   const std::vector<std::int64_t>* body_id = nullptr;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct ProblemTables {
   std::span<const double> inverse_inertia;  ///< 1/I [1/(kg m^2)]; 0: prescribed
   std::span<const Twist> free_velocity;     ///< V_f; of prescribed bodies their velocity
   const ContactTable* contacts = nullptr;
-  std::span<const double> offset;           ///< b_n [m/s]
+  std::span<const double> offset;  ///< b_n [m/s]
   const Sharing* sharing = nullptr;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,10 @@ namespace nscdd {
 
 /// Which unknowns the scene requires; the same for all subdomains of a step.
 enum class ContactModel {
-  kNormal,      ///< disks without friction: r_n; velocities (vx, vy), a spin cannot change
-  kNormalArms,  ///< clusters without friction: r_n; velocities (vx, vy, w)
-  kFriction,    ///< disks with friction: (r_n, r_t); W_nt = 0
-  kFrictionArms ///< clusters with friction: (r_n, r_t); W_nt != 0
+  kNormal,       ///< disks without friction: r_n; velocities (vx, vy), a spin cannot change
+  kNormalArms,   ///< clusters without friction: r_n; velocities (vx, vy, w)
+  kFriction,     ///< disks with friction: (r_n, r_t); W_nt = 0
+  kFrictionArms  ///< clusters with friction: (r_n, r_t); W_nt != 0
 };
 
 constexpr bool HasFriction(ContactModel m) { return m == ContactModel::kFriction || m == ContactModel::kFrictionArms; }
@@ -80,13 +81,13 @@ struct SubdomainProblem {
   ContactModel model = ContactModel::kNormal;
   int subdomain = 0;  ///< number E among all
 
-  std::vector<std::int32_t> body;      ///< row of each copy in the rank's table of bodies
-  std::vector<double> inverse_mass;    ///< Inertias(model) per copy: m_i / M [1/kg], m_i / I [1/(kg m^2)]
-  std::vector<double> free_velocity;   ///< V_f, Dofs(model) per copy
+  std::vector<std::int32_t> body;          ///< row of each copy in the rank's table of bodies
+  std::vector<double> inverse_mass;        ///< Inertias(model) per copy: m_i / M [1/kg], m_i / I [1/(kg m^2)]
+  std::vector<double> free_velocity;       ///< V_f, Dofs(model) per copy
   std::vector<std::int32_t> multiplicity;  ///< m_i of each copy; empty when all are 1
 
-  std::vector<std::int32_t> contact;   ///< row of each contact in the rank's table of contacts, in the order of the sweep
-  std::vector<NormalRow> normal;              // the one that the model names is filled
+  std::vector<std::int32_t> contact;  ///< row of each contact in the rank's table of contacts, in the order of the sweep
+  std::vector<NormalRow> normal;      // the one that the model names is filled
   std::vector<NormalArmsRow> normal_arms;
   std::vector<FrictionRow> friction;
   std::vector<FrictionArmsRow> friction_arms;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stepping/contact_checks.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,8 @@ namespace {
 template <class... Arguments>
 [[noreturn]] void Refuse(const AdapterDescription& adapter, const char* function, fmt::format_string<Arguments...> text,
                          Arguments&&... arguments) {
-  throw Error(fmt::format("adapter '{}', {}: {}", adapter.name, function, fmt::format(text, std::forward<Arguments>(arguments)...)));
+  throw Error(
+      fmt::format("adapter '{}', {}: {}", adapter.name, function, fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
 
 bool IsFinite(const Pose& q) { return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.angle); }
@@ -31,13 +33,12 @@ void CheckPeriod(const AdapterDescription& adapter) {
 }
 
 void CheckBodies(const BodyTable& t, const AdapterDescription& adapter) {
-  const auto refuse = [&](std::size_t i, const char* what) {
-    Refuse(adapter, "ReadBodies", "body {} has {}", t.id[i], what);
-  };
+  const auto refuse = [&](std::size_t i, const char* what) { Refuse(adapter, "ReadBodies", "body {} has {}", t.id[i], what); };
   const std::size_t n = t.size();
   if (t.kind.size() != n || t.mass.size() != n || t.inertia.size() != n || t.radius.size() != n ||
       t.bounding_radius.size() != n || t.pose.size() != n || t.velocity.size() != n || t.force.size() != n) {
-    Refuse(adapter, "ReadBodies", "the columns of the body table differ in length ({} ids); give every body one entry in each", n);
+    Refuse(adapter, "ReadBodies", "the columns of the body table differ in length ({} ids); give every body one entry in each",
+           n);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (t.id[i] < 0) refuse(i, "a negative id; ids are 0 or more");
@@ -65,8 +66,8 @@ void CheckDrift(const BodyTable& t, double half, const AdapterDescription& adapt
     const Pose& q = t.pose[i];
     const Twist& v = t.velocity[i];
     if (IsFinite(Pose{q.x + half * v.vx, q.y + half * v.vy, q.angle + half * v.spin})) continue;
-    Refuse(adapter, "ReadBodies", "body {} moves beyond the largest number within {} s; reduce the time step or its velocity", t.id[i],
-           half);
+    Refuse(adapter, "ReadBodies", "body {} moves beyond the largest number within {} s; reduce the time step or its velocity",
+           t.id[i], half);
   }
 }
 
@@ -95,7 +96,8 @@ void CheckContacts(const ContactTable& t, const BodyTable& bodies, double alert,
     if (c > 0 && key < previous) refuse("is out of order; contacts must be sorted by key");
     if (bodies.kind[a] != BodyKind::kFree && bodies.kind[b] != BodyKind::kFree) refuse("joins two prescribed bodies");
     if (!(std::abs(Dot(t.normal[c], t.normal[c]) - 1.0) < 2e-9)) refuse("has a normal that is not a unit vector");
-    if (!std::isfinite(t.gap[c]) || t.gap[c] > alert + slack) refuse("has a gap that is not finite or above the alert distance");
+    if (!std::isfinite(t.gap[c]) || t.gap[c] > alert + slack)
+      refuse("has a gap that is not finite or above the alert distance");
     if (!std::isfinite(t.lever_a[c]) || !std::isfinite(t.lever_b[c])) refuse("has a lever that is not finite");
     if (!std::isfinite(t.site[c].x) || !std::isfinite(t.site[c].y)) refuse("has a site that is not finite");
     if (!std::isfinite(t.friction[c]) || t.friction[c] < 0.0) refuse("has a friction that is negative or not finite");

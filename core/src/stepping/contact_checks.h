@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -19,8 +20,8 @@ void CheckBodies(const BodyTable& bodies, const AdapterDescription& adapter);
 /// Throws Error, naming the body, when its position after `half` [s] at its velocity is not finite.
 void CheckDrift(const BodyTable& bodies, double half, const AdapterDescription& adapter);
 
-/// As CheckBodies, for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a free body.
-/// Arms on free bodies need the capability `clusters`.
+/// As CheckBodies, for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a
+/// free body. Arms on free bodies need the capability `clusters`.
 void CheckContacts(const ContactTable& contacts, const BodyTable& bodies, double alert, const AdapterDescription& adapter);
 
 }  // namespace nscdd

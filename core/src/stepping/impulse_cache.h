@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace nscdd {
 
-/// Impulse of a contact at the end of a step. It travels with its carrier, a free body of the contact (A if that is free), which
-/// is held by every rank that can meet the contact in the next step.
+/// Impulse of a contact at the end of a step. It travels with its carrier, a free body of the contact (A if that is free),
+/// which is held by every rank that can meet the contact in the next step.
 struct CachedImpulse {
   std::int64_t carrier;
   ContactKey key;

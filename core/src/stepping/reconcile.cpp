@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stepping/reconcile.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ struct CopyRecord {
 };
 
 /// Copies whose owner does not know V yet: all but those of its own bodies that no other subdomain touches.
-std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state, const Distribution& distribution,
-                                 const Sharing& sharing) {
+std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state,
+                                 const Distribution& distribution, const Sharing& sharing) {
   const int dofs = Dofs(problem.model);
   std::vector<CopyRecord> records;
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
@@ -72,9 +73,12 @@ void Exchange(const Distribution& distribution, Communicator* communicator, std:
       return rank != me;
     });
   };
-  divert(copies, [](const auto& e) { return e.body; }, [](Parcel* p) { return &p->copies; });
-  divert(&cache->contacts, [](const auto& e) { return e.carrier; }, [](Parcel* p) { return &p->cache.contacts; });
-  divert(&cache->interfaces, [](const auto& e) { return e.body; }, [](Parcel* p) { return &p->cache.interfaces; });
+  divert(
+      copies, [](const auto& e) { return e.body; }, [](Parcel* p) { return &p->copies; });
+  divert(
+      &cache->contacts, [](const auto& e) { return e.carrier; }, [](Parcel* p) { return &p->cache.contacts; });
+  divert(
+      &cache->interfaces, [](const auto& e) { return e.body; }, [](Parcel* p) { return &p->cache.interfaces; });
 
   std::vector<Message> outgoing;
   for (const auto& [rank, parcel] : parcels) {
@@ -96,8 +100,8 @@ void Exchange(const Distribution& distribution, Communicator* communicator, std:
   }
 }
 
-/// V := mean over the copies in order of their subdomains, as the first plus the mean of the differences: exact when all agree. One
-/// copy's velocity is taken as it is, here as on the rank of a body's owner (adding 0 would change the sign of -0).
+/// V := mean over the copies in order of their subdomains, as the first plus the mean of the differences: exact when all agree.
+/// One copy's velocity is taken as it is, here as on the rank of a body's owner (adding 0 would change the sign of -0).
 void AverageCopies(std::vector<CopyRecord>* copies, const Population& population, int dofs, std::vector<Twist>* velocity) {
   std::sort(copies->begin(), copies->end(), [](const CopyRecord& a, const CopyRecord& b) {
     return std::pair(a.body, a.subdomain) < std::pair(b.body, b.subdomain);

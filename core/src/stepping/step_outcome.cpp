@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stepping/step_outcome.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ bool StepOutcome::IsFinite() const { return std::all_of(bodies.begin(), bodies.e
 void StepOutcome::RequireFinite() const {
   const auto bad = std::find_if_not(bodies.begin(), bodies.end(), HasNumbers);
   if (bad == bodies.end()) return;
-  throw Error(fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", bad->id));
+  throw Error(
+      fmt::format("the solver made a position or velocity of body {} that is not finite; nothing was written back", bad->id));
 }
 
 void StepOutcome::Commit(PlatformAdapter* adapter) const {

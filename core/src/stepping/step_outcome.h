@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -9,8 +10,8 @@ namespace nscdd {
 
 /// What a step made of this rank's bodies and contacts.
 struct StepOutcome {
-  std::vector<BodyRecord> bodies;      ///< by id
-  std::vector<ContactRecord> contacts; ///< by (subdomain, key)
+  std::vector<BodyRecord> bodies;       ///< by id
+  std::vector<ContactRecord> contacts;  ///< by (subdomain, key)
 
   bool IsFinite() const;
   /// Throws Error naming the first body whose position or velocity is not finite.

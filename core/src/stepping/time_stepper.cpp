@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/time_stepper.h"
 
 #include <fmt/format.h>
@@ -53,11 +54,13 @@ class TimeStepper::Impl {
       description_ = adapter->Describe();
       CheckPeriod(description_);
       const int ranks = communicator->size(), subdomains = partition_.nx * partition_.ny;
-      Require(ranks <= subdomains,
-              fmt::format("{} ranks share {} subdomain{}; a rank needs at least one: start at most {} or ask for more subdomains",
-                          ranks, subdomains, subdomains == 1 ? "" : "s", subdomains));
+      Require(
+          ranks <= subdomains,
+          fmt::format("{} ranks share {} subdomain{}; a rank needs at least one: start at most {} or ask for more subdomains",
+                      ranks, subdomains, subdomains == 1 ? "" : "s", subdomains));
       Require(ranks == 1 || adapter->transport() != nullptr,
-              fmt::format("adapter '{}' cannot move bodies between ranks (no distributed_bodies); start one rank", description_.name));
+              fmt::format("adapter '{}' cannot move bodies between ranks (no distributed_bodies); start one rank",
+                          description_.name));
     });
     blocks_ = Blocks(partition_.nx * partition_.ny, communicator->size());
     first_subdomain_ = blocks_.First(communicator->rank());
@@ -138,7 +141,7 @@ class TimeStepper::Impl {
   double time_ = 0.0;
 
   // Of the present step.
-  std::vector<Pose> detection_;                    // q_m of every row
+  std::vector<Pose> detection_;  // q_m of every row
   ContactTable contacts_;
   std::vector<std::vector<std::int32_t>> chosen_;  // rows of contacts_ of each of this rank's subdomains, by key
   std::vector<std::int32_t> solved_;               // all of them in the order of the table
@@ -290,7 +293,8 @@ void TimeStepper::Impl::ComputeOffsets(double dt) {
     const Twist &va = bodies().velocity[contacts_.a[c]], &vb = bodies().velocity[contacts_.b[c]];
     double approach = Dot(contacts_.normal[c], Linear(vb) - Linear(va));
     if (contacts_.has_arms()) {
-      approach += Cross(contacts_.arm_b[c], contacts_.normal[c]) * vb.spin - Cross(contacts_.arm_a[c], contacts_.normal[c]) * va.spin;
+      approach +=
+          Cross(contacts_.arm_b[c], contacts_.normal[c]) * vb.spin - Cross(contacts_.arm_a[c], contacts_.normal[c]) * va.spin;
     }
     approach_[c] = approach;
     const double levers = contacts_.lever_a[c] + contacts_.lever_b[c];
@@ -320,8 +324,7 @@ void TimeStepper::Impl::ReduceScales(double dt) {
     // A negative offset asks for a speed too: that of recovery.
     for (const std::int32_t c : chosen_[e]) parts[e][7] = std::max({parts[e][7], -approach_[c], -offset_[c]});
   }
-  const ContactModel mine =
-      RequiredModel({inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_});
+  const ContactModel mine = RequiredModel({inverse_mass_, inverse_inertia_, free_velocity_, &contacts_, offset_, &sharing_});
   parts.front()[8] = HasFriction(mine);
   parts.front()[9] = HasArms(mine);
   const auto t = ReduceInOrder<6, 4>(parts, communicator_);
@@ -345,9 +348,10 @@ void TimeStepper::Impl::SolveProblem(double dt) {
         WarmInterfaceImpulses(cache_, problem_.interface, sharing_, problem_.subdomains, bodies().id, scale);
     Gluing(problem_.subdomains, problem_.interface, communicator_).SubtractImpulse(state.interface, &state.subdomains);
   }
-  report_.solve = problem_.contact_count == 0
-                      ? ReportWithoutContacts(problem_)
-                      : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &workspace_, &state); }, algorithm_);
+  report_.solve =
+      problem_.contact_count == 0
+          ? ReportWithoutContacts(problem_)
+          : std::visit([&](const auto& o) { return Solve(problem_, o, communicator_, &workspace_, &state); }, algorithm_);
   report_.solve.subdomains = grid_.cells();
   if (problem_.contact_count == 0) report_.solve.empty_subdomains = grid_.cells();
 
@@ -394,17 +398,19 @@ void TimeStepper::Impl::RecordContacts(double half) {
       const double shift = contacts_.has_images() ? contacts_.image[c] * description_.period : 0.0;
       const double bound = contacts_.friction[c] * impulse_[c].x;
       const int status = impulse_[c].x <= 0.0 ? 0 : std::abs(impulse_[c].y) < bound ? 1 : 2;
-      const Vec2 point = Centre(detection_[a]) + (arms ? contacts_.arm_a[c] : Vec2{}) + contacts_.lever_a[c] * contacts_.normal[c];
+      const Vec2 point =
+          Centre(detection_[a]) + (arms ? contacts_.arm_a[c] : Vec2{}) + contacts_.lever_a[c] * contacts_.normal[c];
       outcome_.contacts.push_back({KeyOf(contacts_, c, bodies().id), contacts_.gap[c],
-                                  FinalGap(contacts_, c, detection_[a], detection_[b], moved(a), moved(b), shift),
-                                  contacts_.normal[c], point, impulse_[c], relative_velocity_[c], status,
-                                  first_subdomain_ + static_cast<int>(e)});
+                                   FinalGap(contacts_, c, detection_[a], detection_[b], moved(a), moved(b), shift),
+                                   contacts_.normal[c], point, impulse_[c], relative_velocity_[c], status,
+                                   first_subdomain_ + static_cast<int>(e)});
     }
   }
 }
 
 void TimeStepper::Impl::Summarise(double dt) {
-  // sums: kinetic energy, momentum, interpenetration, injected energy;  maxima: interpenetration, drift, numbers that are not finite
+  // sums: kinetic energy, momentum, interpenetration, injected energy;  maxima: interpenetration, drift, numbers that are not
+  // finite
   std::vector<ReductionPart<5, 3>> parts(local_subdomains_);
   for (auto& part : parts) part = {};
   for (std::size_t i = 0; i < rows(); ++i) {

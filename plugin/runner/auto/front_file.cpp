@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "auto/front_file.h"
 
 #include <fmt/format.h>

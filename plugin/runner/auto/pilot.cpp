@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "auto/pilot.h"
 
 #include <fmt/format.h>
@@ -89,9 +90,10 @@ std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& requ
   if ((request.solver.empty() ? scene.solver.name : request.solver) != kAuto) return nullptr;
   const std::filesystem::path file = FrontFileOf(scene.file);
   const bool measured = std::filesystem::exists(file);
-  Ladder ladder = MakeLadder(WishOf(scene), WantedGrid(scene, request), ranks, measured ? ReadFront(file) : std::vector<FrontEntry>{},
-                             file.string(), registry);
-  if (ladder.rungs.empty()) throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
+  Ladder ladder = MakeLadder(WishOf(scene), WantedGrid(scene, request), ranks,
+                             measured ? ReadFront(file) : std::vector<FrontEntry>{}, file.string(), registry);
+  if (ladder.rungs.empty())
+    throw Error("solver 'auto': the plugin has none of the solvers that it would choose from; name one");
   PilotState state;
   for (const Setting& rung : ladder.rungs) state.choices.push_back(ChoiceOf(rung, scene, request, registry));
   state.ladder = std::move(ladder);

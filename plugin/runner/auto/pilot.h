@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -27,12 +28,13 @@ class Pilot {
   const SolverChoice& choice() const { return state_.choices[state_.rung]; }
   /// It makes as many iterations as it is given and is not asked to converge.
   bool is_fixed() const;
-  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be and another
-  /// step follows (`goes_on`). Collective.
+  /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be
+  /// and another step follows (`goes_on`). Collective.
   void AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
                  const AdapterHost& host, PlatformAdapter* adapter, Solver* solver);
 
-  /// The last step after which the solver was exchanged, so that the new one has no tables yet and no host has ghosts; -1: none.
+  /// The last step after which the solver was exchanged, so that the new one has no tables yet and no host has ghosts; -1:
+  /// none.
   std::int64_t changed_after() const { return changed_after_; }
   std::int64_t escalations() const { return watcher_.state().escalations; }
   std::int64_t descents() const { return watcher_.state().descents; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "auto/watcher.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ bool Watcher::IsTooDeep(const StepReport& report) const {
   return !(report.max_interpenetration <= std::max(Target(report), state_.depth + kNegligible * Target(report)));
 }
 
-Watcher::Verdict Watcher::Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above, bool below) {
+Watcher::Verdict Watcher::Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above,
+                                bool below) {
   ++state_.steps;
   const SolveStatus status = report.solve.status;
   const bool limit = status == SolveStatus::kIterationLimit && !fixed;
@@ -57,13 +59,15 @@ Watcher::Verdict Watcher::JudgeBudget(double seconds, bool above, bool below) {
 }
 
 std::string Watcher::Summary(const std::string& origin, const std::string& last_rung) const {
-  std::string text = fmt::format("AUTO: {} escalation{}{}, last rung '{}', from {}", state_.escalations, state_.escalations == 1 ? "" : "s",
-                                 state_.descents > 0 ? fmt::format(" and {} descents", state_.descents) : "", last_rung, origin);
+  std::string text =
+      fmt::format("AUTO: {} escalation{}{}, last rung '{}', from {}", state_.escalations, state_.escalations == 1 ? "" : "s",
+                  state_.descents > 0 ? fmt::format(" and {} descents", state_.descents) : "", last_rung, origin);
   if (wish_.interpenetration) {
     text += state_.missed + state_.by_geometry == 0
                 ? fmt::format("; no step of {} went deeper than wished", state_.steps)
                 : fmt::format("; {} of {} steps went deeper than wished", state_.missed + state_.by_geometry, state_.steps);
-    if (state_.by_geometry > 0) text += fmt::format(", in {} of them for the time step's sake: take a smaller dt", state_.by_geometry);
+    if (state_.by_geometry > 0)
+      text += fmt::format(", in {} of them for the time step's sake: take a smaller dt", state_.by_geometry);
   }
   if (state_.not_converged > 0) text += fmt::format("; {} steps did not converge", state_.not_converged);
   if (wish_.budget) text += fmt::format("; {} of {} steps took longer than the budget", state_.over_budget, state_.steps);

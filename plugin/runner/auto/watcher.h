@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,11 @@ struct WatcherState {
   std::int64_t not_converged = 0;
   std::int64_t over_budget = 0;
   std::int64_t since_change = 0;
-  double quick = 0.0;            ///< [s] largest step since the last change of rung
+  double quick = 0.0;  ///< [s] largest step since the last change of rung
 };
 
-/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget looks
-/// at a clock.
+/// Judges the steps of a run with solver "auto". Decides from the reports alone, which are the same on all ranks; only a budget
+/// looks at a clock.
 class Watcher {
  public:
   enum class Verdict { kStay, kClimb, kDescend };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "commands/export.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ struct Exported {
 /// The normal law that the solver was given, as far as it knows these options.
 SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& registry) {
   const auto value = [&](const char* name) { return OptionValue(choice, registry, name); };
-  const auto number = [&](const char* name, double otherwise) { return value(name).empty() ? otherwise : std::stod(value(name)); };
+  const auto number = [&](const char* name, double otherwise) {
+    return value(name).empty() ? otherwise : std::stod(value(name));
+  };
   SteppingOptions o;
   const std::string law = value("normal_law");
   o.normal_law = law == "strict" ? NormalLaw::kStrict : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kGap;
@@ -38,8 +41,8 @@ SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& reg
 
 std::string DescriptionOf(const std::string& what, const SolverChoice& choice, const SolveReport& report) {
   const StepRow row = MakeStepRow({.solve = report});
-  return fmt::format("{}; answer of nscdd {}, solver {}: {}, nat {:.3g}, nat_max {:.3g}", what, NSCDD_VERSION, choice.name, row.status,
-                     row.nat, row.nat_max);
+  return fmt::format("{}; answer of nscdd {}, solver {}: {}, nat {:.3g}, nat_max {:.3g}", what, NSCDD_VERSION, choice.name,
+                     row.status, row.nat, row.nat_max);
 }
 
 Exported FromScene(const ExportRequest& request) {
@@ -61,7 +64,9 @@ Exported FromScene(const ExportRequest& request) {
   if (!request.json.empty()) WriteProblemFile(request.json, step, scene.time.dt, scene.time.theta);
   const SolveReport report = solver.Report().solve;
   const std::string what = fmt::format("step {} of scene {}, dt {} s", request.step, scene.name, scene.time.dt);
-  return {scene.title.empty() ? scene.name : scene.title, DescriptionOf(what, choice, report), std::move(step.problem),
+  return {scene.title.empty() ? scene.name : scene.title,
+          DescriptionOf(what, choice, report),
+          std::move(step.problem),
           {std::move(step.velocity), std::move(step.impulse), {}, report}};
 }
 
@@ -83,13 +88,15 @@ Exported FromProblem(const ExportRequest& request) {
 }  // namespace
 
 void Export(const ExportRequest& request) {
-  if (request.fclib.empty() && request.json.empty()) throw Error("export: nothing to write; give --fclib FILE.h5 or --json FILE.json");
+  if (request.fclib.empty() && request.json.empty())
+    throw Error("export: nothing to write; give --fclib FILE.h5 or --json FILE.json");
   const bool problem = request.input.extension() == ".json";
   const Exported exported = problem ? FromProblem(request) : FromScene(request);
   if (!request.fclib.empty()) {
     WriteFclibFile(request.fclib, exported.title, exported.description, exported.problem, exported.answer);
   }
-  fmt::print("{}\n{} bodies, {} contacts\n", exported.description, exported.problem.mass.size(), exported.problem.contacts.size());
+  fmt::print("{}\n{} bodies, {} contacts\n", exported.description, exported.problem.mass.size(),
+             exported.problem.contacts.size());
   for (const auto& file : {request.fclib, request.json}) {
     if (!file.empty()) fmt::print("{}\n", file.string());
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct ExportRequest {
   std::filesystem::path json;   ///< file to write that `nscdd solve` reads
 };
 
-/// Solves the scene up to the step, or the problem, and writes that contact problem with the answer. Prints what it wrote and how
-/// good the answer is. Throws Error on bad input.
+/// Solves the scene up to the step, or the problem, and writes that contact problem with the answer. Prints what it wrote and
+/// how good the answer is. Throws Error on bad input.
 void Export(const ExportRequest& request);
 
 }  // namespace nscdd

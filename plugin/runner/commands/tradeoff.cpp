@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "commands/tradeoff.h"
 
 #include <fmt/format.h>
@@ -176,12 +177,13 @@ void TradeoffCommand::Record(const StopSignal& interrupt) {
                                [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
   bar.Finish();
   const auto done = static_cast<std::int64_t>(reference_.nat.size());
-  Say(fmt::format("reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
-                  done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
-                  reference_.steps.size()));
+  Say(fmt::format(
+      "reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
+      done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
+      reference_.steps.size()));
   if (done < plan_.steps && interrupt.received() == 0) {
-    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps", done,
-                    plan_.steps));
+    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps",
+                    done, plan_.steps));
   }
 }
 

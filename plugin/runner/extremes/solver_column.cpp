@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "extremes/solver_column.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -13,12 +14,12 @@ namespace nscdd {
 ///     0 <= u_n _|_ r_n >= 0,  |r_t| <= mu r_n,  u_t != 0 => r_t = -mu r_n sign(u_t),
 /// where u_n = v_n + b_n and u_t = v_t: w holds b_n and what prescribed bodies do.
 struct ContactOperators {
-  SparseMatrix mass;      ///< M = diag(m, m, I)
-  SparseMatrix transfer;  ///< H
-  SparseMatrix delassus;  ///< W = H^T M^-1 H
-  std::vector<double> momentum;        ///< f = M V_f [N s, N m s]
-  std::vector<double> offset;          ///< w [m/s]
-  std::vector<double> free_velocity;   ///< q = H^T M^-1 f + w [m/s]
+  SparseMatrix mass;                  ///< M = diag(m, m, I)
+  SparseMatrix transfer;              ///< H
+  SparseMatrix delassus;              ///< W = H^T M^-1 H
+  std::vector<double> momentum;       ///< f = M V_f [N s, N m s]
+  std::vector<double> offset;         ///< w [m/s]
+  std::vector<double> free_velocity;  ///< q = H^T M^-1 f + w [m/s]
 };
 
 /// Throws Error when the matrices would be too large for 32-bit indices.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "problem/fclib_file.h"
 
 #include <fmt/format.h>
@@ -10,9 +11,12 @@ namespace nscdd {
 namespace {
 
 constexpr const char* kMathInfo =
-    "u = H^T v + w per contact in the order (n, t), r likewise; r_n >= 0 is compression, u_n > 0 opens, t = (n_y, -n_x). The gaps enter "
-    "through w alone: u_n = v_n + b_n with b_n [m/s] = max(0, gap) / dt (other normal laws and restitution change b_n, not the law "
-    "0 <= u_n _|_ r_n >= 0), so w_n = b_n plus what prescribed bodies do, w_t the latter. M is diagonal and positive, W symmetric "
+    "u = H^T v + w per contact in the order (n, t), r likewise; r_n >= 0 is compression, u_n > 0 opens, t = (n_y, -n_x). The "
+    "gaps enter "
+    "through w alone: u_n = v_n + b_n with b_n [m/s] = max(0, gap) / dt (other normal laws and restitution change b_n, not the "
+    "law "
+    "0 <= u_n _|_ r_n >= 0), so w_n = b_n plus what prescribed bodies do, w_t the latter. M is diagonal and positive, W "
+    "symmetric "
     "and positive semi-definite; with more contacts than bodies bear (hyperstatic) r is not unique.";
 
 /// Data sets of one file, which lie on one rank.
@@ -25,7 +29,9 @@ class FclibWriter {
   void Put(const Hdf5Handle& group, const char* name, const std::vector<T>& values) {
     file_.WriteColumn(group, name, "", values, RowRange(ranks_, values.size()));
   }
-  void Put(const Hdf5Handle& group, const char* name, std::int32_t value) { Put(group, name, std::vector<std::int32_t>{value}); }
+  void Put(const Hdf5Handle& group, const char* name, std::int32_t value) {
+    Put(group, name, std::vector<std::int32_t>{value});
+  }
   void Put(const Hdf5Handle& group, const char* name, const std::string& text) { file_.WriteText(group, name, text); }
 
   void PutMatrix(const std::string& name, const SparseMatrix& matrix) {
@@ -59,8 +65,8 @@ std::vector<double> Interleaved(const std::vector<Vec2>& pairs) {
   return numbers;
 }
 
-void PutGlobal(const ContactOperators& o, const std::vector<double>& friction, const std::string& title, const std::string& description,
-               FclibWriter* out) {
+void PutGlobal(const ContactOperators& o, const std::vector<double>& friction, const std::string& title,
+               const std::string& description, FclibWriter* out) {
   out->Put(out->Group("/fclib_global"), "spacedim", 2);
   out->PutMatrix("/fclib_global/M", o.mass);
   out->PutMatrix("/fclib_global/H", o.transfer);
@@ -71,8 +77,8 @@ void PutGlobal(const ContactOperators& o, const std::vector<double>& friction, c
   out->PutInfo("/fclib_global/info", title, description);
 }
 
-void PutLocal(const ContactOperators& o, const std::vector<double>& friction, const std::string& title, const std::string& description,
-              FclibWriter* out) {
+void PutLocal(const ContactOperators& o, const std::vector<double>& friction, const std::string& title,
+              const std::string& description, FclibWriter* out) {
   out->Put(out->Group("/fclib_local"), "spacedim", 2);
   out->PutMatrix("/fclib_local/W", o.delassus);
   const Hdf5Handle vectors = out->Group("/fclib_local/vectors");
@@ -94,7 +100,8 @@ void PutAnswer(const ContactProblem& problem, const ContactSolution& answer, Fcl
 
 void WriteFclibFile(const std::filesystem::path& path, const std::string& title, const std::string& description,
                     const ContactProblem& problem, const ContactSolution& answer) {
-  if (problem.contacts.size() == 0) throw Error(fmt::format("{}: there is no contact to write; choose a later step", path.string()));
+  if (problem.contacts.size() == 0)
+    throw Error(fmt::format("{}: there is no contact to write; choose a later step", path.string()));
   const ContactOperators operators = MakeContactOperators(problem);
   const Hdf5Silence silence;
   FclibWriter out(path);

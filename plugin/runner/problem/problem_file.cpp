@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "problem/problem_file.h"
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ class Reader {
   std::vector<std::vector<double>> TableOf(const char* key, std::size_t columns, std::size_t count, const char* what) const {
     auto rows = Table(key, columns, true);
     if (json_.contains(key) && rows.size() != count) {
-      Refuse(fmt::format("key '{}'", key), fmt::format("has {} rows; it needs one for each {}, {} in all", rows.size(), what, count));
+      Refuse(fmt::format("key '{}'", key),
+             fmt::format("has {} rows; it needs one for each {}, {} in all", rows.size(), what, count));
     }
     return rows;
   }
@@ -84,7 +86,8 @@ class Reader {
   std::vector<double> NumberOrRow(const char* key, std::size_t count) const {
     const auto at = json_.find(key);
     if (at == json_.end() || !at->is_array()) return std::vector<double>(count, Number(key, 0.0));
-    if (at->size() != count) Refuse(fmt::format("key '{}'", key), fmt::format("has {} numbers, {} are needed", at->size(), count));
+    if (at->size() != count)
+      Refuse(fmt::format("key '{}'", key), fmt::format("has {} numbers, {} are needed", at->size(), count));
     return Row(*at, fmt::format("key '{}'", key), count);
   }
 
@@ -115,7 +118,7 @@ class Reader {
 };
 
 struct Start {
-  std::vector<Pose> pose;      // at the detection configuration
+  std::vector<Pose> pose;       // at the detection configuration
   std::vector<Twist> velocity;  // at the beginning
 };
 
@@ -234,21 +237,23 @@ void WriteProblemFile(const std::filesystem::path& path, const RecordedStep& ste
     const Pose& q = b.pose[i];
     const Twist& v = b.velocity[i];
     const bool fixed = b.kind[i] != BodyKind::kFree;
-    json["bodies"].push_back({q.x, q.y, q.angle, v.vx, v.vy, v.spin, b.radius[i], fixed ? 1.0 : b.mass[i], fixed ? 1.0 : b.inertia[i],
-                              fixed ? 1 : 0});
+    json["bodies"].push_back({q.x, q.y, q.angle, v.vx, v.vy, v.spin, b.radius[i], fixed ? 1.0 : b.mass[i],
+                              fixed ? 1.0 : b.inertia[i], fixed ? 1 : 0});
     const Wrench f = fixed ? Wrench{} : b.force[i];
     json["forces"].push_back({f.fx, f.fy, f.torque});
   }
   for (std::size_t c = 0; c < t.size(); ++c) {
-    json["contacts"].push_back({t.b[c], t.a[c], t.normal[c].x, t.normal[c].y, t.gap[c], t.lever_b[c], t.lever_a[c],
-                                step.problem.offset[c]});
+    json["contacts"].push_back(
+        {t.b[c], t.a[c], t.normal[c].x, t.normal[c].y, t.gap[c], t.lever_b[c], t.lever_a[c], step.problem.offset[c]});
     json["sites"].push_back({t.site[c].x, t.site[c].y});
     if (t.has_arms()) json["arms"].push_back({t.arm_a[c].x, t.arm_a[c].y, t.arm_b[c].x, t.arm_b[c].y});
   }
   std::ofstream out(path);
   out << json.dump() << '\n';
   out.close();
-  if (!out) throw Error(fmt::format("{}: the file cannot be written; check the path, its permissions and the free space", path.string()));
+  if (!out)
+    throw Error(
+        fmt::format("{}: the file cannot be written; check the path, its permissions and the free space", path.string()));
 }
 
 }  // namespace nscdd

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "problem/step_assembly.h"
 
 #include <algorithm>
@@ -71,7 +72,8 @@ ContactProblem AssembleStep(const BodyTable& bodies, const ContactTable& contact
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (stepping.normal_law == NormalLaw::kStrict && contacts.gap[c] > 0.0) continue;
     AppendRow(contacts, c, &problem.contacts);
-    const double approach = ContactMotion(contacts, c).Velocity(bodies.velocity[contacts.a[c]], bodies.velocity[contacts.b[c]]).x;
+    const double approach =
+        ContactMotion(contacts, c).Velocity(bodies.velocity[contacts.a[c]], bodies.velocity[contacts.b[c]]).x;
     const double levers = contacts.lever_a[c] + contacts.lever_b[c];
     problem.offset.push_back(NormalOffset(stepping, contacts.gap[c], levers, approach, contacts.restitution[c], dt));
     problem.approach_speed = std::max(problem.approach_speed, -approach);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "problem/step_recorder.h"
 
 #include <algorithm>
@@ -38,7 +39,8 @@ RecordedStep StepRecorder::Problem(const SteppingOptions& stepping, double dt) c
   if (key_.size() < step.problem.contacts.size()) {
     throw Error("the solver committed fewer impulses than it was given contacts; export needs all of them");
   }
-  std::vector<std::size_t> order(key_.size());  // a step of several subdomains commits one subdomain's contacts behind the other's
+  std::vector<std::size_t> order(
+      key_.size());  // a step of several subdomains commits one subdomain's contacts behind the other's
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key_[a] < key_[b]; });
   for (std::size_t c = 0; c < step.problem.contacts.size(); ++c) step.impulse.push_back(impulse_[order[c]]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@ namespace nscdd {
 
 /// The contact problem of one time step, and what a solver answered.
 struct RecordedStep {
-  BodyTable bodies;        ///< at the beginning of the step, ascending ids; rows of the problem
-  ContactProblem problem;  ///< contacts by key, without those that the normal law does not see
+  BodyTable bodies;             ///< at the beginning of the step, ascending ids; rows of the problem
+  ContactProblem problem;       ///< contacts by key, without those that the normal law does not see
   std::vector<Twist> velocity;  ///< V by row of bodies
   std::vector<Vec2> impulse;    ///< (r_n, r_t) by contact [N s]
 };
@@ -30,12 +31,13 @@ class StepRecorder final : public PlatformAdapter {
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override { return nullptr; }
 
-  /// Of the last committed step, of length dt [s]. `stepping`: its normal law, which makes b_n. Throws Error when there was no step.
+  /// Of the last committed step, of length dt [s]. `stepping`: its normal law, which makes b_n. Throws Error when there was no
+  /// step.
   RecordedStep Problem(const SteppingOptions& stepping, double dt) const;
 
  private:
   PlatformAdapter* adapter_;
-  BodyTable bodies_;         // in ascending order of id
+  BodyTable bodies_;  // in ascending order of id
   ContactTable contacts_;
   std::vector<Twist> velocity_;
   std::vector<ContactKey> key_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "results/progress_bar.h"
 
 #include <fmt/format.h>
@@ -63,7 +64,8 @@ std::string ProgressBar::Line(const std::string& note, double now) const {
 }
 
 void ProgressBar::Update(const StepRow& row) {
-  Update(fmt::format("{} iterations  nat {:.1e}", row.iterations, row.nat), row.status != "converged" && row.status != "incomplete");
+  Update(fmt::format("{} iterations  nat {:.1e}", row.iterations, row.nat),
+         row.status != "converged" && row.status != "incomplete");
 }
 
 void ProgressBar::Update(const std::string& note, bool failed) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -35,7 +36,7 @@ struct RunSummary {
   // Filled by Add().
   std::int64_t steps = 0;
   double time = 0.0;                              ///< [s] simulated
-  std::array<std::int64_t, 5> status_count = {};   ///< converged, iteration_limit, stalled, incomplete, diverged
+  std::array<std::int64_t, 5> status_count = {};  ///< converged, iteration_limit, stalled, incomplete, diverged
   StepRow last;
   StepRow first_not_converged;
   std::int64_t iterations = 0;  ///< sums over the steps, unless they say maximum

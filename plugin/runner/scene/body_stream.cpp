@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/body_stream.h"
 
 #include <fmt/format.h>
@@ -186,8 +187,9 @@ void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<vo
   const std::int64_t count = CountBodies(scene);
   const std::int64_t begin = FirstNumber(count, rank, ranks), end = FirstNumber(count, rank + 1, ranks);
   if (end - begin > kMostBodiesOfARank) {
-    throw Error(fmt::format("{}: makes {} bodies, {} on one process; at most {} are possible there: give fewer, or start more ranks.",
-                            scene.file.string(), count, end - begin, kMostBodiesOfARank));
+    throw Error(
+        fmt::format("{}: makes {} bodies, {} on one process; at most {} are possible there: give fewer, or start more ranks.",
+                    scene.file.string(), count, end - begin, kMostBodiesOfARank));
   }
   std::int64_t number = 0;
   for (const BodySource& source : scene.bodies) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <box2d/box2d.h>
 #include <fmt/format.h>
 
@@ -82,8 +83,9 @@ class Box2dPlatform final : public Platform {
     }
     for (const reference::HalfPlane& plane : body.half_planes) add({plane.offset, 0.0});
     if (largest <= kLargest) return;
-    throw Error(fmt::format("Body {} has the number {:.3g}, in Box2D's units, where its range ends at {:.0e}; use adapter = \"reference\".",
-                            body.id, largest, kLargest));
+    throw Error(fmt::format(
+        "Body {} has the number {:.3g}, in Box2D's units, where its range ends at {:.0e}; use adapter = \"reference\".",
+        body.id, largest, kLargest));
   }
 
   float Units(double metres) const { return static_cast<float>(metres / metres_per_unit_); }

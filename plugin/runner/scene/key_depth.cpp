@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/key_depth.h"
 
 #include <algorithm>
@@ -5,7 +6,8 @@
 namespace nscdd {
 namespace {
 
-/// Length of the string that `text` begins with, quotes included; it ends before the line's end if it is not closed on a line where it has to be.
+/// Length of the string that `text` begins with, quotes included; it ends before the line's end if it is not closed on a line
+/// where it has to be.
 std::size_t StringLength(std::string_view text) {
   const char quote = text.front();
   const bool multiline = text.size() >= 3 && text[1] == quote && text[2] == quote;

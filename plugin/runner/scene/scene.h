@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -88,7 +89,7 @@ struct SolverOption {
 struct AutoSettings {
   std::optional<double> interpenetration;  ///< largest that is fine, in mean radii or metres
   bool of_mean_radius = true;
-  std::optional<double> budget;            ///< [s] a step
+  std::optional<double> budget;  ///< [s] a step
 };
 
 enum class OnNonconvergence { kContinue, kStop };
@@ -102,10 +103,10 @@ struct SceneSolver {
 };
 
 struct OutputSettings {
-  std::string dir;                         ///< empty: the runner's default
-  std::optional<std::int64_t> save_every;  ///< steps between two saved states; none: first and last only
+  std::string dir;                               ///< empty: the runner's default
+  std::optional<std::int64_t> save_every;        ///< steps between two saved states; none: first and last only
   std::optional<std::int64_t> checkpoint_every;  ///< steps between two checkpoints; none: no checkpoints
-  std::string packing;                     ///< file in the output folder that receives the free disks at the end (packing.h)
+  std::string packing;  ///< file in the output folder that receives the free disks at the end (packing.h)
 };
 
 /// A scene file as read: settings and recipes of bodies, never the bodies themselves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -11,8 +12,8 @@ int FirstLineOutsideUtf8(std::string_view text);
 /// Has it control characters (below U+0020, or U+007F)?
 bool HasControls(std::string_view text);
 
-/// The text fit for one line of a terminal: control characters and bytes that are no UTF-8 become '?', and of more than 1000 bytes
-/// the middle is left out.
+/// The text fit for one line of a terminal: control characters and bytes that are no UTF-8 become '?', and of more than 1000
+/// bytes the middle is left out.
 std::string Printable(std::string_view text);
 
 }  // namespace nscdd

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <box2d/box2d.h>
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tradeoff/observable.h"
 
 #include <fmt/format.h>
@@ -7,8 +8,8 @@
 #include <cmath>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
 #include "problem/contact_motion.h"
+#include "scene/names.h"
 
 namespace nscdd {
 namespace {

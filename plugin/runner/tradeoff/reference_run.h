@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -20,8 +21,8 @@ struct ReferenceStep {
 struct ReferenceRun {
   Setting setting;                   ///< that was used
   std::vector<ReferenceStep> steps;  ///< recorded ones
-  std::vector<double> observable;   ///< at the end of every step
-  std::vector<double> nat;          ///< of every step, as measured here
+  std::vector<double> observable;    ///< at the end of every step
+  std::vector<double> nat;           ///< of every step, as measured here
   std::vector<double> nat_max;
   std::int64_t not_converged = 0;
   double seconds = 0.0;  ///< that it took

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nscdd/error.h"
 #include "scene/gravity.h"
 #include "tradeoff/process_clock.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tradeoff/tradeoff_plot.h"
 
 #include <fcntl.h>
@@ -65,8 +66,8 @@ std::string PanelScript(const Panel& panel, int number, const std::vector<Tradeo
     ++family;
     if (data.empty()) continue;
     script += fmt::format("$d{}_{} << EOD\n{}EOD\n", number, family, data);
-    plot += fmt::format("{}$d{}_{} with points pt {} lc rgb '{}' ps 1.1 title {}", plot.empty() ? "" : ", \\\n  ", number, family,
-                        family + 3, kColours[(family - 1) % std::size(kColours)], Quoted(name));
+    plot += fmt::format("{}$d{}_{} with points pt {} lc rgb '{}' ps 1.1 title {}", plot.empty() ? "" : ", \\\n  ", number,
+                        family, family + 3, kColours[(family - 1) % std::size(kColours)], Quoted(name));
   }
   script += fmt::format("set title {}\n", Quoted(panel.title));
   if (plot.empty()) return script + "set multiplot next\n";

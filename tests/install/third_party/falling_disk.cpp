@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The core without the plugin: a disk dropped from 0.2 m comes to rest on a half-plane.
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads the plugin and solves one problem with both solvers: a disk of 2 kg at rest on a fixed body. plugin_host PLUGIN.so
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,10 @@ namespace nscdd {
 /// What this host needs from a plugin.
 struct HostAbi {
   std::uint32_t major = NSCDD_ABI_MAJOR;
-  std::uint32_t minor = 0;  ///< the least
+  std::uint32_t minor = 0;                                          ///< the least
   std::uint64_t struct_size = offsetof(nscdd_plugin, load_states);  ///< of this minor
-  std::string mpi_library;  ///< first line of MPI_Get_library_version
-  HostAbi();                ///< of this build
+  std::string mpi_library;                                          ///< first line of MPI_Get_library_version
+  HostAbi();                                                        ///< of this build
 };
 
 /// A loaded and checked plugin; unloaded with the last owner. Solver handles own it.
