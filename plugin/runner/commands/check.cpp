@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "auto/pilot.h"
+#include "commands/print_notes.h"
 #include "scene/grain_size.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
@@ -55,6 +56,7 @@ void PrintContacts(const ContactTable& contacts, const Poses& poses, double mean
 
 void Check(const std::filesystem::path& path, const std::string& adapter, const SolverRequest& request) {
   const Scene scene = ReadSceneFile(path);
+  PrintNotes(scene.notes);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.plugin));
   const auto pilot = Pilot::Make(scene, request, registry, 1);

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "checkpoint/resume_point.h"
+#include "commands/print_notes.h"
 #include "commands/run_checkpoints.h"
 #include "commands/run_plan.h"
 #include "nscdd/error.h"
@@ -40,6 +41,7 @@ class SceneRun {
     } else {
       ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
     }
+    if (ranks_.is_root() && !request_.quiet) PrintNotes(plan_.scene.notes);
     ranks_.RunOnRoot([&] { CheckIds(plan_.scene); });
     ranks_.RunTogether([&] {
       platform_ = MakePlatform(plan_.record.adapter, plan_.scene);

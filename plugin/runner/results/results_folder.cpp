@@ -76,7 +76,8 @@ nlohmann::ordered_json MarkerOf(const RunIdentity& identity) {
           {"scene_file", identity.scene_file},
           {"scene_hash", identity.scene_hash},
           {"version", identity.version},
-          {"settings", settings}};
+          {"settings", settings},
+          {"notes", identity.notes}};
 }
 
 void RefuseToLoseCheckpoints(const fs::path& folder) {

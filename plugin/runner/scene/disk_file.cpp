@@ -2,65 +2,57 @@
 #include "scene/disk_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <utility>
 
 #include "nscdd/error.h"
+#include "scene/csv_number.h"
 #include "scene/names.h"
 #include "scene/utf8.h"
 
 namespace nscdd {
 namespace {
 
-enum Column : std::size_t { kId, kX, kY, kRadius, kAngle, kVx, kVy, kSpin, kMaterial };
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-const std::vector<std::string>& ColumnNames() {
-  static const std::vector<std::string> names = {"id", "x", "y", "radius", "angle", "vx", "vy", "spin", "material"};
+/// Rows of final.csv that the scene makes in another way.
+bool IsLeftOut(std::string_view kind) { return kind == "wall" || kind == "cluster"; }
+
+/// The names in a comment above the rows; "#format x_y_z_r" is YADE's.
+std::vector<std::string_view> NamesIn(std::string_view comment) {
+  std::vector<std::string_view> names;
+  comment = Trim(comment.substr(std::min(comment.find_first_not_of('#'), comment.size())));
+  if (!SplitLine(comment, FindSeparator(comment), &names)) return {};
+  if (names.size() != 2 || names[0] != "format") return names;
+  std::string_view format = names[1];
+  names.clear();
+  for (std::size_t end = 0; end != std::string_view::npos; format.remove_prefix(std::min(end + 1, format.size()))) {
+    end = format.find('_');
+    names.push_back(format.substr(0, end));
+  }
   return names;
 }
 
-std::string_view Trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string_view> Split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(Trim(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-template <typename T>
-std::optional<T> Parse(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-double* Target(std::size_t column, DiskRow* row) {
+double* Target(DiskColumn column, DiskRow* row) {
   switch (column) {
-    case kX:
+    case DiskColumn::kX:
       return &row->pose.x;
-    case kY:
+    case DiskColumn::kY:
       return &row->pose.y;
-    case kRadius:
-      return &row->radius;
-    case kAngle:
+    case DiskColumn::kZ:
+      return &row->z;
+    case DiskColumn::kAngle:
       return &row->pose.angle;
-    case kVx:
+    case DiskColumn::kVx:
       return &row->velocity.vx;
-    case kVy:
+    case DiskColumn::kVy:
       return &row->velocity.vy;
-    default:
+    case DiskColumn::kSpin:
       return &row->velocity.spin;
+    default:
+      return &row->radius;
   }
 }
 
@@ -70,8 +62,8 @@ DiskFileReader::DiskFileReader(const std::filesystem::path& path) : path_(path) 
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error)) stream_.open(path);
   if (!stream_.is_open())
-    throw Error(fmt::format("{}: cannot be read; check that this CSV file is there and readable.", path.string()));
-  ReadHeader();
+    throw Error(fmt::format("{}: cannot be read; check that this table is there and readable.", path.string()));
+  ReadHead();
 }
 
 void DiskFileReader::Refuse(const std::string& what) const {
@@ -85,6 +77,7 @@ void DiskFileReader::CheckText(std::string_view line) const {
 }
 
 bool DiskFileReader::NextLine() {
+  if (std::exchange(held_, false)) return true;
   while (!stream_.eof()) {
     ++line_number_;
     // Sets failbit when the line fills the array, and with eofbit when there is no further line.
@@ -94,63 +87,152 @@ bool DiskFileReader::NextLine() {
       Refuse(fmt::format("the line is longer than {} characters; give one disk per line", line_.size() - 2));
     // A zero byte would hide the rest of its line.
     const auto read = static_cast<std::size_t>(stream_.gcount()) - (stream_.eof() || stream_.gcount() == 0 ? 0 : 1);
-    CheckText({line_.data(), read});
-    const std::string_view text = Trim(line_.data());
+    std::string_view text(line_.data(), read);
+    CheckText(text);
+    if (line_number_ == 1 && text.starts_with(kByteOrderMark)) {
+      std::fill_n(line_.begin(), kByteOrderMark.size(), ' ');
+    }
+    text = Trim(text);
     if (!text.empty() && text.front() != '#') return true;
+    if (columns_.meaning.empty()) ConsiderComment(text);
   }
   return false;
 }
 
-void DiskFileReader::ReadHeader() {
-  if (!NextLine()) Refuse("the file is empty; its first line must name the columns, such as x,y,radius");
-  std::string_view text = line_.data();
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-  for (const std::string_view field : Split(text)) {
-    const auto& names = ColumnNames();
-    const auto name = std::find(names.begin(), names.end(), field);
-    if (name == names.end())
-      Refuse(fmt::format("column '{}' is unknown; {}", field, Suggestion(field, names, "known columns")));
-    const auto column = static_cast<std::size_t>(name - names.begin());
-    if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
-      Refuse(fmt::format("column '{}' is there twice; keep one", field));
-    }
-    columns_.push_back(column);
-  }
-  for (const std::size_t needed : {kX, kY, kRadius}) {
-    if (std::find(columns_.begin(), columns_.end(), needed) == columns_.end()) {
-      Refuse(fmt::format("column '{}' is missing; the first line must name x, y and radius", ColumnNames()[needed]));
-    }
-  }
-  has_ids_ = std::find(columns_.begin(), columns_.end(), std::size_t{kId}) != columns_.end();
+void DiskFileReader::ConsiderComment(std::string_view text) {
+  const DiskColumns columns = ColumnsNamed(NamesIn(text));
+  if (columns.fault.empty()) comment_ = text;
 }
 
-bool DiskFileReader::Next(DiskRow* row) {
-  if (!NextLine()) return false;
-  row->line = line_number_;
-  const std::vector<std::string_view> fields = Split(line_.data());
-  if (fields.size() != columns_.size()) {
-    Refuse(fmt::format("{} fields where the first line names {} columns; give one value per column", fields.size(),
-                       columns_.size()));
+void DiskFileReader::ReadHead() {
+  if (!NextLine()) Refuse("the file has no line with names or numbers; its first line must name the columns, such as x,y,radius");
+  separator_ = FindSeparator(line_.data());
+  SplitFields();
+  const auto is_number = [](std::string_view field) { return CsvNumber(field).has_value(); };
+  if (std::any_of(fields_.begin(), fields_.end(), is_number)) return TakeRowWithoutHeader();
+  if (fields_.front() == "ITEM:") {
+    Refuse(
+        "this is a dump of LAMMPS or LIGGGHTS; keep the lines of one time step, and the line above them from 'ITEM: ATOMS' on "
+        "without these two words");
   }
-  for (std::size_t i = 0; i < fields.size(); ++i) ReadField(columns_[i], fields[i], row);
+  TakeNames(fields_);
+}
+
+void DiskFileReader::TakeNames(const std::vector<std::string_view>& names) {
+  columns_ = ColumnsNamed(names);
+  if (!columns_.fault.empty()) Refuse(columns_.fault);
+}
+
+/// The first line with something in it is a row already: its columns are named by a comment above it, or go by position.
+void DiskFileReader::TakeRowWithoutHeader() {
+  held_ = true;
+  if (!comment_.empty()) {
+    TakeNames(NamesIn(comment_));
+    if (fields_.size() == columns_.meaning.size()) return;
+    Refuse(fmt::format("{} fields where the comment above, '{}', names {} columns; make it name each column, or none",
+                       fields_.size(), comment_, columns_.meaning.size()));
+  }
+  named_ = false;
+  columns_ = ColumnsByPosition(fields_.size());
+  if (!columns_.fault.empty()) Refuse(columns_.fault);
+  if (separator_ == Separator::kComma && fields_.size() > 3) {
+    Refuse("numbers between commas and no names of columns, where some commas may be decimal marks; write the names above, such as "
+           "x,y,z,radius");
+  }
+}
+
+void DiskFileReader::SplitFields() {
+  if (!SplitLine(line_.data(), separator_, &fields_)) Refuse("a double quote is opened but not closed; close or remove it");
+}
+
+/// Leaves the fields of the next disk in fields_.
+bool DiskFileReader::NextDisk() {
+  while (NextLine()) {
+    SplitFields();
+    if (fields_.size() != columns_.meaning.size()) {
+      Refuse(fmt::format(
+          "{} fields where the {} {} columns; give one value per column{}", fields_.size(), named_ ? "header names" : "first row has",
+          columns_.meaning.size(), separator_ == Separator::kComma ? ", with decimal points if commas separate them" : ""));
+    }
+    const auto kind = std::find(columns_.meaning.begin(), columns_.meaning.end(), DiskColumn::kKind);
+    if (kind == columns_.meaning.end() || !IsLeftOut(fields_[static_cast<std::size_t>(kind - columns_.meaning.begin())])) return true;
+    ++left_out_;
+  }
+  return false;
+}
+
+bool DiskFileReader::Skip() { return columns_.Has(DiskColumn::kKind) ? NextDisk() : NextLine(); }
+
+bool DiskFileReader::Next(DiskRow* row) {
+  if (!NextDisk()) return false;
+  row->line = line_number_;
+  for (std::size_t i = 0; i < fields_.size(); ++i) ReadField(columns_.meaning[i], fields_[i], row);
   return true;
 }
 
-void DiskFileReader::ReadField(std::size_t column, std::string_view field, DiskRow* row) const {
-  if (column == kMaterial) {
-    row->material = field;
-    return;
+void DiskFileReader::ReadField(DiskColumn column, std::string_view field, DiskRow* row) {
+  switch (column) {
+    case DiskColumn::kUnused:
+      return;
+    case DiskColumn::kMaterial:
+      row->material = field;
+      return;
+    case DiskColumn::kKind:
+      return ReadKind(field, row);
+    case DiskColumn::kId:
+      row->id = CsvId(field);
+      if (!row->id) Refuse(fmt::format("id '{}' is not an integer >= 0; give each disk its own, or leave the column out", field));
+      return;
+    default:
+      *Target(column, row) = ReadNumber(column, field) * (column == DiskColumn::kDiameter ? 0.5 : 1.0);
   }
-  if (column == kId) {
-    row->id = Parse<std::int64_t>(field);
-    if (!row->id || *row->id < 0) Refuse(fmt::format("id '{}' is not an integer >= 0; give each disk its own", field));
-    return;
+}
+
+double DiskFileReader::ReadNumber(DiskColumn column, std::string_view field) {
+  const std::string_view name = NameOf(column);
+  const std::optional<double> number = CsvNumber(field);
+  if (!number) Refuse(fmt::format("{} '{}' is not a finite number; give one, such as 1.5 or 1e-3", name, field));
+  const bool is_size = column == DiskColumn::kRadius || column == DiskColumn::kDiameter;
+  if (is_size && !(*number * 0.5 > 0.0)) Refuse(fmt::format("{} {} is not positive; give a length > 0 [m]", name, field));
+  const auto mark = field.find_first_of(".,");
+  if (mark != std::string_view::npos) {
+    if (decimal_mark_ == '\0') decimal_mark_ = field[mark];
+    if (decimal_mark_ != field[mark]) {
+      Refuse(fmt::format("{} '{}' has a decimal '{}' where numbers before have '{}'; write all with the same", name, field,
+                         field[mark], decimal_mark_));
+    }
   }
-  const std::optional<double> number = Parse<double>(field);
-  if (!number || !std::isfinite(*number))
-    Refuse(fmt::format("{} '{}' is not a finite number; give one", ColumnNames()[column], field));
-  if (column == kRadius && *number <= 0.0) Refuse(fmt::format("radius {} is not positive; give a length > 0 [m]", field));
-  *Target(column, row) = *number;
+  return *number;
+}
+
+void DiskFileReader::ReadKind(std::string_view field, DiskRow* row) const {
+  if (field == "free" || field == "0") {
+    row->kind = BodyKind::kFree;
+  } else if (field == "prescribed" || field == "1") {
+    row->kind = BodyKind::kPrescribed;
+  } else if (!field.empty()) {
+    Refuse(fmt::format("kind '{}' is not free, prescribed, wall or cluster; give one of these or rename the column", field));
+  }
+}
+
+std::vector<std::string> DiskFileReader::Remarks() const {
+  std::vector<std::string> remarks;
+  const std::string file = path_.string();
+  if (!named_) {
+    const char* order = columns_.meaning.size() == 4 ? "x, y, z, radius" : "x, y, radius";
+    remarks.push_back(Sentence(fmt::format("{}: names no columns; they were read as {}", file, order)));
+  }
+  if (!columns_.unused.empty()) {
+    const bool one = columns_.unused.size() == 1;
+    remarks.push_back(Sentence(fmt::format("{}: column{} {} {} not used", file, one ? "" : "s",
+                                           fmt::join(columns_.unused, ", "), one ? "is" : "are")));
+  }
+  if (left_out_ > 0) {
+    const bool one = left_out_ == 1;
+    remarks.push_back(Sentence(fmt::format("{}: {} wall{} or cluster{} left out, as a table holds disks; the scene has to give them",
+                                           file, left_out_, one ? "" : "s", one ? " is" : "s are")));
+  }
+  return remarks;
 }
 
 }  // namespace nscdd

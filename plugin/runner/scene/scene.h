@@ -14,6 +14,7 @@
 #include "scene/deposition.h"
 #include "scene/gravity.h"
 #include "scene/lattice.h"
+#include "scene/notes.h"
 
 namespace nscdd {
 
@@ -122,6 +123,7 @@ struct Scene {
   std::vector<BodySource> bodies;   ///< walls first
   SceneSolver solver;
   OutputSettings output;
+  Notes notes;  ///< on what was read
 };
 
 }  // namespace nscdd
