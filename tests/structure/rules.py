@@ -71,9 +71,10 @@ FORBIDDEN_TEXT = [
 ]
 
 TOP_LEVEL = {
-    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CONTRIBUTING.md", "demo.sh", "test.sh",
-    "core", "plugin", "adapters", "tests", "sample_scenes",
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "demo.sh",
+    "test.sh", "core", "plugin", "adapters", "tests", "sample_scenes",
 }
+TOP_LEVEL_OPTIONAL = {"findings"}  # may be missing
 NOT_IN_GIT = {"build", "results", "compile_commands.json"}
 
 PLUGIN_SYMBOLS = ["nscdd_plugin_entry"]

@@ -112,8 +112,9 @@ def check_text(root):
 
 def check_top_level(root):
     names = {p.name for p in root.iterdir() if not p.name.startswith(".")} - rules.NOT_IN_GIT
-    for name in sorted(names - rules.TOP_LEVEL):
-        yield f"{name} lies in the project's root, which holds only {', '.join(sorted(rules.TOP_LEVEL))} and dot files."
+    allowed = rules.TOP_LEVEL | rules.TOP_LEVEL_OPTIONAL
+    for name in sorted(names - allowed):
+        yield f"{name} lies in the project's root, which holds only {', '.join(sorted(allowed))} and dot files."
     for name in sorted(rules.TOP_LEVEL - names):
         yield f"{name} is missing in the project's root."
 

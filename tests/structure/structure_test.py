@@ -86,6 +86,11 @@ class StructureTest(unittest.TestCase):
                 else:
                     file.write_text(before)
 
+    def test_what_is_optional_may_lie_in_the_root(self):
+        for name in rules.TOP_LEVEL_OPTIONAL:
+            (self.root / name).mkdir()
+        self.assertEqual(structure.check_tree(self.root), [])
+
     def test_a_missing_file_is_found(self):
         (self.root / "LICENSE").unlink()
         self.assertEqual(structure.check_tree(self.root), ["LICENSE is missing in the project's root."])
