@@ -10,6 +10,7 @@ debian_packages=(
   libgtest-dev libbenchmark-dev gnuplot-nox
   libfclib-dev libsiconos-numerics-dev
   python3 python3-h5py
+  clang-format codespell
 )
 
 # mpirun as root, and with more ranks than cores, which then have to give way to each other.

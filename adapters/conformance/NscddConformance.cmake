@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # nscdd_add_conformance_tests(TARGET <executable> [PREFIX <name>] [EXCEPT <check>...] [BROKEN] [SEED <number>])
 #
-# Registers every conformance check as a test of its own, named <PREFIX>.<check> (PREFIX: conformance.<executable> if not given).
-# The executable's main() calls nscdd::conformance::Main. EXCEPT leaves checks out. A check is skipped where the adapter does not
-# declare the capability. BROKEN runs the check on adapters that are broken on purpose, and passes if it catches them all.
+# Registers every conformance check as a test of its own, named <PREFIX>.<check> (PREFIX: conformance.<executable> if not
+# given). The executable's main() calls nscdd::conformance::Main. EXCEPT leaves checks out. A check is skipped where the adapter
+# does not declare the capability. BROKEN runs the check on adapters that are broken on purpose, and passes if it catches
+# them all.
 set_property(GLOBAL PROPERTY NSCDD_CONFORMANCE_CHECKS
     description ids_stable bodies_round_trip clusters_round_trip loads prescribed_motion
     pairs_complete pairs_complete_after_drift pairs_sorted order_free_of_history filters_honoured

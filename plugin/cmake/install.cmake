@@ -12,7 +12,9 @@ install(TARGETS nscdd_api nscdd_core nscdd_adapter_reference nscdd_adapter_box2d
         EXPORT nscddTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT nscddTargets NAMESPACE nscdd:: DESTINATION ${NSCDD_INSTALL_CMAKE})
 
-foreach(part core adapters/reference adapters/box2d adapters/callback adapters/conformance plugin plugin/host)
+# The folders whose include/ is public.
+set(NSCDD_PUBLIC_PARTS core adapters/reference adapters/box2d adapters/callback adapters/conformance plugin plugin/host)
+foreach(part IN LISTS NSCDD_PUBLIC_PARTS)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${part}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/sample_scenes/ DESTINATION ${NSCDD_INSTALL_SCENES})

@@ -7,7 +7,8 @@ if(NOT NSCDD_MPI_LIBRARY)
           LINK_LIBRARIES MPI::MPI_C
           RUN_OUTPUT_VARIABLE NSCDD_MPI_LIBRARY_OUTPUT)
   if(NOT NSCDD_MPI_LIBRARY_COMPILED OR NOT NSCDD_MPI_LIBRARY_RUN EQUAL 0 OR NSCDD_MPI_LIBRARY_OUTPUT STREQUAL "")
-    message(FATAL_ERROR "Cannot ask the MPI library for its version (${NSCDD_MPI_LIBRARY_OUTPUT}); give it with -DNSCDD_MPI_LIBRARY=...")
+    message(FATAL_ERROR "Cannot ask the MPI library for its version (${NSCDD_MPI_LIBRARY_OUTPUT}); "
+                        "give it with -DNSCDD_MPI_LIBRARY=...")
   endif()
   set(NSCDD_MPI_LIBRARY "${NSCDD_MPI_LIBRARY_OUTPUT}" CACHE STRING "First line of MPI_Get_library_version")
 endif()

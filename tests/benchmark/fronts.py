@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""fronts.py FOLDER   prints, from the CSV files of fronts.sh, a section a scene: its front, Box2D beside it, and when IEA pays."""
+"""fronts.py FOLDER   prints, from the CSV files of fronts.sh, a section a scene: its front, Box2D beside it,
+and when IEA pays."""
 
 import csv
 import pathlib
 import sys
 
 UNSOUND = {"failed", "cut", "diverged"}
-NUMBERS = ("seconds", "nat", "nat_max", "velocity_error", "interpenetration_mean", "interpenetration_max", "solver_growth_max", "sweeps",
+NUMBERS = ("seconds", "nat", "nat_max", "velocity_error", "interpenetration_mean", "interpenetration_max", "solver_growth_max",
+           "sweeps",
            "exchanges", "observable_error")
 
 
@@ -23,7 +25,8 @@ def read(path):
 def front(rows, key):
     """Rows that no other beats in (seconds, key), the cheapest first."""
     kept = []
-    for row in sorted((r for r in rows if r["status"] not in UNSOUND and r[key] is not None), key=lambda r: (r["seconds"], r[key])):
+    for row in sorted((r for r in rows if r["status"] not in UNSOUND and r[key] is not None),
+                      key=lambda r: (r["seconds"], r[key])):
         if not kept or row[key] < kept[-1][key]:
             kept.append(row)
     return kept
@@ -51,7 +54,8 @@ def print_table(head, rows):
 
 
 def print_front(rows, key, title):
-    cells = [[r["setting"], r["status"], ms(r), f"{r['sweeps']:.0f}", f"{r['exchanges']:.0f}", f"{r['nat']:.1e}", f"{r['nat_max']:.1e}",
+    cells = [[r["setting"], r["status"], ms(r), f"{r['sweeps']:.0f}", f"{r['exchanges']:.0f}", f"{r['nat']:.1e}",
+              f"{r['nat_max']:.1e}",
               f"{r['velocity_error']:.1e}" if r["velocity_error"] is not None else "", f"{r['interpenetration_mean']:.1e}",
               f"{r['interpenetration_max']:.1e}", f"{r['solver_growth_max']:.1e}"] for r in front(rows, key)]
     print(f"{title}:")
@@ -85,8 +89,10 @@ def print_iea(runs):
     for iea in (r for r in runs if r["solver"] == "iea" and r["status"] not in UNSOUND):
         same = [r for r in runs if r["solver"] == "nscdd" and "anderson" in r["options"] and grid_of(r) == grid_of(iea)]
         best = cheapest_as_good(same, iea)
-        cells.append([iea["setting"], ms(iea), f"{iea['exchanges']:.0f}", f"{iea['nat']:.1e}", f"{iea['interpenetration_max']:.1e}",
-                      best["setting"] if best else "none", ms(best) if best else "", f"{best['exchanges']:.0f}" if best else ""])
+        cells.append([iea["setting"], ms(iea), f"{iea['exchanges']:.0f}", f"{iea['nat']:.1e}",
+                      f"{iea['interpenetration_max']:.1e}",
+                      best["setting"] if best else "none", ms(best) if best else "",
+                      f"{best['exchanges']:.0f}" if best else ""])
     if cells:
         print("IEA beside the cheapest accelerated NSCDD on its grid that is at least as good:")
         print_table(["IEA", "ms", "exchanges", "nat", "largest interpenetration", "NSCDD", "ms", "exchanges"], cells)

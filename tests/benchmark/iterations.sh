@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Iterations, residuals and interpenetration of NSCD and NSCDD on the two rotating boxes, as a table. Deterministic but for seconds.
+# Iterations, residuals and interpenetration of NSCD and NSCDD on the two rotating boxes, as a table. Deterministic but for
+# seconds.
 #     tests/benchmark/iterations.sh [build/release/bin/nscdd]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -16,11 +17,13 @@ row() {  # scene, label, options of the run
     NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
     { its += $at["iterations"]; nat += $at["nat"]; if ($at["max_interpenetration"] > worst) worst = $at["max_interpenetration"]
       last = $at["mean_interpenetration"]; if ($at["status"] != "converged") ++failed }
-    END { printf "| %-29s | %-31s | %6.1f | %.1e | %.1e | %.1e | %d |\n", scene, label, its / (NR - 1), nat / (NR - 1), last, worst, failed }
+    END { printf "| %-29s | %-31s | %6.1f | %.1e | %.1e | %.1e | %d |\n",
+                 scene, label, its / (NR - 1), nat / (NR - 1), last, worst, failed }
   ' "$out/$scene/steps.csv"
 }
 
-echo "| scene | solver, criterion | iterations a step | mean nat | final mean interpenetration [m] | largest [m] | not converged |"
+echo "| scene | solver, criterion | iterations a step | mean nat | final mean interpenetration [m] | largest [m] |" \
+     "not converged |"
 echo "| --- | --- | --- | --- | --- | --- | --- |"
 for scene in rotating_box_730 rotating_box_730_frictionless; do
   qm16=(--criterion qm16 --tolerance 1.666e-4 --acceleration none)

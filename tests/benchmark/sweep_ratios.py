@@ -27,7 +27,8 @@ def main(path):
         median = {what: statistics.median(rates[law, disks, what]) for what in ("bare", "product", "statistics", "residual")}
         contacts, active = facts[law, disks]
         ratios = " | ".join(f"{median[what] / median['bare']:.2f}" for what in ("product", "statistics", "residual"))
-        print(f"| {law} | {disks} | {contacts} | {active:.0%} | {median['bare'] / 1e6:.0f} | {median['product'] / 1e6:.0f} | {ratios} |")
+        print(f"| {law} | {disks} | {contacts} | {active:.0%} | {median['bare'] / 1e6:.0f} | "
+              f"{median['product'] / 1e6:.0f} | {ratios} |")
 
 
 if len(sys.argv) != 2:

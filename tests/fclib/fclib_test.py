@@ -128,7 +128,8 @@ class Fclib(unittest.TestCase):
 
     def test_several_subdomains(self):
         """Contacts are exported by key, whatever the subdomains solved them."""
-        self.compare(SCENES / "pyramid.toml", "nsgs", "--step", 3, "--solver", "nscdd", "--subdomains", "2x2", *TIGHT, accuracy=1e-9)
+        self.compare(SCENES / "pyramid.toml", "nsgs", "--step", 3, "--solver", "nscdd", "--subdomains", "2x2", *TIGHT,
+                     accuracy=1e-9)
 
     def test_guess(self):
         """An answer that did not converge is a guess, not a solution."""
@@ -149,7 +150,8 @@ def table():
                ("--solver", "newton", "--option", "max_iterations=400", "--tolerance", "1e-10"), 1e-14, 400000),
               (SCENES / "rotating_box_730.toml", "nsgs",
                ("--solver", "nscd", "--tolerance", "1e-6", "--max-iterations", 1000000), 1e-14, 400000)]
-    print("| problem | contacts | Siconos' solver, iterations | nat of nscdd | nat of Siconos | distance of V |\n" + "| --- " * 6 + "|")
+    print("| problem | contacts | Siconos' solver, iterations | nat of nscdd | nat of Siconos | distance of V |\n"
+              + "| --- " * 6 + "|")
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "wedge.toml"
         scene.write_text(WEDGE)
@@ -157,7 +159,8 @@ def table():
             file, _ = export(folder, source, *arguments)
             r = siconos(file, solver, tolerance, iterations)
             ours = f", solver {arguments[arguments.index('--solver') + 1]}" if "--solver" in arguments else ""
-            print(f"| {source.stem}{ours} | {r['contacts']} | {solver}, {r['siconos_iterations']} | {r['nat_ours']:.1e} | {r['nat_siconos']:.1e} | "
+            print(f"| {source.stem}{ours} | {r['contacts']} | {solver}, {r['siconos_iterations']} | "
+                  f"{r['nat_ours']:.1e} | {r['nat_siconos']:.1e} | "
                   f"{r['velocity_distance']:.1e} |", flush=True)
 
 

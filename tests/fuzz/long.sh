@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# The long run, from the project's root: tests/fuzz/long.sh [EXECUTIONS per target, default 10000000] [TARGET ...]. Builds preset fuzz,
-# then fuzzes one target after the other, niced; ends with the first fault, whose input it names. Several may run side by side, each
-# with targets of its own.
+# The long run, from the project's root: tests/fuzz/long.sh [EXECUTIONS per target, default 10000000] [TARGET ...]. Builds
+# preset fuzz, then fuzzes one target after the other, niced; ends with the first fault, whose input it names. Several may run
+# side by side, each with targets of its own.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/../.."
 executions=${1:-10000000}

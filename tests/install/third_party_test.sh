@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# third_party_test.sh SOURCE BUILD FLAGS   installs BUILD into an empty prefix and builds and tests third_party/ on it. All of it
-# happens in a temporary folder, and nothing there may mention SOURCE or BUILD. FLAGS: what else the compiler is to be told.
+# third_party_test.sh SOURCE BUILD FLAGS   installs BUILD into an empty prefix and builds and tests third_party/ on it. All of
+# it happens in a temporary folder, and nothing there may mention SOURCE or BUILD. FLAGS: what else the compiler is to be told.
 set -euo pipefail
 source=$1 build=$2 flags=$3
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -11,7 +11,8 @@ trap 'rm -rf "$work"' EXIT
 names_our_trees() { grep -rF "-e$build/" "-e$source"/{core,adapters,plugin,tests,sample_scenes}/ "$@"; }
 fail() { echo "install: $*" >&2; exit 1; }
 
-cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install failed."; }
+cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" ||
+  { cat "$work/install.log"; fail "cmake --install failed."; }
 for file in bin/nscdd lib/libnscdd_solver.so lib/libnscdd_core.a lib/cmake/nscdd/nscddConfig.cmake include/nscdd_plugin.h \
   include/nscdd/platform_adapter.h share/nscdd/sample_scenes/rotating_box_730.toml; do
   [[ -e $work/prefix/$file ]] || fail "$file is not in the prefix."

@@ -24,7 +24,8 @@ def about_one_step(result):
         rows.append((f"mu {mu}: It2 is constant for lambda < 1", " / ".join(f"{x:.0f}" for x in small),
                      _verdict(max(small) < 1.1 * min(small))))
         its, first = _iterations(fea), fea[0.0]["its"]
-        rows.append((f"mu {mu}: It2 < It1", f"{rea[0.0]['it2']:.0f} < {first:.0f} at lambda 0", _verdict(rea[0.0]["it2"] < first)))
+        rows.append((f"mu {mu}: It2 < It1", f"{rea[0.0]['it2']:.0f} < {first:.0f} at lambda 0",
+                     _verdict(rea[0.0]["it2"] < first)))
         middle = [its.get(v) for v in fea if 1 < v < 100]
         falls = all(x is not None and x < first for x in middle)
         rows.append((f"mu {mu}: fewer iterations for 1 < lambda < 100",
@@ -38,7 +39,8 @@ def about_one_step(result):
                      _verdict(all(b < a for _, b, a in both))))
         if "G" in r["fea"]:
             good = {name: len(_iterations(r["fea"][name])) for name in ("G'", "G")}
-            rows.append((f"mu {mu}: G' is the more robust compatibility", f"converges at {good[chr(71) + chr(39)]} and {good['G']} of "
+            rows.append((f"mu {mu}: G' is the more robust compatibility",
+                         f"converges at {good[chr(71) + chr(39)]} and {good['G']} of "
                          f"{len(fea)} lambdas", _verdict(good["G'"] >= good["G"])))
     return rows
 
@@ -66,7 +68,8 @@ def about_incomplete(runs, test):
     maxima = ", ".join(f"{n[4:]}: {r.largest('max_interpenetration'):.1e}" for n, r in ours.items())
     middle = [r.mean("iterations") for r in ours.values()]
     return [
-        (f"{test}: IEA needs moderately fewer iterations than NSCDD", f"{min(middle):.0f} to {max(middle):.0f} local sweeps a step, NSCDD "
+        (f"{test}: IEA needs moderately fewer iterations than NSCDD",
+         f"{min(middle):.0f} to {max(middle):.0f} local sweeps a step, NSCDD "
          f"{base.mean('iterations'):.0f}", _verdict(statistics.fmean(middle) < base.mean("iterations"))),
         (f"{test}: the mean interpenetration falls with lambda", means,
          _verdict(last.last("mean_interpenetration") < 0.5 * first.last("mean_interpenetration"))),

@@ -16,15 +16,18 @@ def one_step(program, folder, quick):
     limit = 6000
     result = {}
     for mu, scene in SCENES.items():
-        base = {s: program.run(scene, s, steps=1, cold=True, **QM16, **({} if s == "nscd" else GRID)) for s in ("nscd", "nscdd")}
+        base = {s: program.run(scene, s, steps=1, cold=True, **QM16, **({} if s == "nscd" else GRID))
+                for s in ("nscd", "nscdd")}
         result[mu] = {"nscd": base["nscd"].last("iterations"), "nscdd": base["nscdd"].last("iterations"), "fea": {}, "rea": {}}
         for compatibility, name in COMPATIBILITIES.items():
             if compatibility == "full" and (quick or mu == 0.0):
                 continue  # frictionless contacts have no tangential column here: G and G' are the same
-            for solver, extra in (("fea", {"max_iterations": limit}), ("rea", {"max_iterations": limit, "max_interface_updates": limit})):
+            for solver, extra in (("fea", {"max_iterations": limit}),
+                                  ("rea", {"max_iterations": limit, "max_interface_updates": limit})):
                 found = result[mu][solver].setdefault(name, {})
                 for value in [0.0] + lambdas:
-                    run = program.run(scene, solver, steps=1, cold=True, sweeps_per_stage=1, compatibility=compatibility, **QM16, **GRID,
+                    run = program.run(scene, solver, steps=1, cold=True, sweeps_per_stage=1, compatibility=compatibility,
+                                      **QM16, **GRID,
                                       **{"lambda": value}, **extra)
                     good = "iteration_limit" not in run.statuses() and "diverged" not in run.statuses()
                     its = run.last("iterations")
@@ -56,10 +59,12 @@ def process(program, folder, quick):
                 else:
                     limit = 6000
                 extra = {"max_interface_updates": limit} if solver == "rea" else {}
-                runs[f"{solver.upper()} {value}"] = program.run(scene, solver, sweeps_per_stage=1, max_iterations=limit, **QM16, **GRID,
+                runs[f"{solver.upper()} {value}"] = program.run(scene, solver, sweeps_per_stage=1, max_iterations=limit, **QM16,
+                                                                **GRID,
                                                                 **{"lambda": value}, **extra)
         panels = [(label, log, {name: list(zip(run.column("step"), run.column(key))) for name, run in runs.items()})
-                  for label, log, key in (("iterations", False, "iterations"), ("mean interpenetration [m]", True, "mean_interpenetration"),
+                  for label, log, key in (("iterations", False, "iterations"),
+                                          ("mean interpenetration [m]", True, "mean_interpenetration"),
                                           ("max interpenetration [m]", True, "max_interpenetration"))]
         plot(folder, "figure5" if mu == 0.0 else "figure6", f"Rotating gravity, mu = {mu}", "step", panels)
         result[mu] = runs
@@ -69,12 +74,14 @@ def process(program, folder, quick):
 def incomplete(program, folder, quick, name, scene, steps, title, save=False):
     """Figures 7 and 9: the incomplete resolution over lambda."""
     lambdas = [0, 10, 1000, 1e5] if quick else [0, 1, 10, 100, 1e3, 1e4, 1e5]
-    runs = {"NSCD": program.run(scene, "nscd", steps=steps, **QM16), "NSCDD": program.run(scene, "nscdd", steps=steps, **QM16, **GRID)}
+    runs = {"NSCD": program.run(scene, "nscd", steps=steps, **QM16),
+            "NSCDD": program.run(scene, "nscdd", steps=steps, **QM16, **GRID)}
     for value in lambdas:
         runs[f"IEA {value:g}"] = program.run(scene, "iea", steps=steps, save_every=steps if save else None, **QM16, **GRID,
                                              **{"lambda": value})
     panels = [(label, log, {n: list(zip(run.column("step"), run.column(key))) for n, run in runs.items()})
-              for label, log, key in (("iterations", False, "iterations"), ("mean interpenetration [m]", True, "mean_interpenetration"),
+              for label, log, key in (("iterations", False, "iterations"),
+                                      ("mean interpenetration [m]", True, "mean_interpenetration"),
                                       ("max interpenetration [m]", True, "max_interpenetration"))]
     plot(folder, name, title, "step", panels)
     return runs

@@ -15,7 +15,8 @@ def write_data(path, names, rows):
 def plot(folder, name, title, x_label, panels, x_log=False):
     """Draws panels side by side. A panel: (y label, y is logarithmic, {curve: [(x, y), ...]})."""
     script = [f"set terminal pngcairo size {620 * len(panels)},480 font 'DejaVu Sans,10'", f"set output '{folder}/{name}.png'",
-              f"set multiplot layout 1,{len(panels)} title '{title}'", "set grid", "set key below maxrows 2", "set bmargin 6", "set datafile missing '?'",
+              f"set multiplot layout 1,{len(panels)} title '{title}'", "set grid", "set key below maxrows 2", "set bmargin 6",
+              "set datafile missing '?'",
               f"set xlabel '{x_label}'"]
     for number, (y_label, y_log, curves) in enumerate(panels):
         script += ["set logscale x" if x_log else "unset logscale x", "set logscale y" if y_log else "unset logscale y",

@@ -52,7 +52,8 @@ class Run:
 
 
 # What the paper does not have, off: its iterations are plain ones.
-PLAIN = {"nscd": {"acceleration": "none"}, "nscdd": {"acceleration": "none"}, "fea": {"acceleration": "none", "jump_guard": "false"}}
+PLAIN = {"nscd": {"acceleration": "none"}, "nscdd": {"acceleration": "none"},
+         "fea": {"acceleration": "none", "jump_guard": "false"}}
 
 
 class Program:
@@ -68,7 +69,8 @@ class Program:
         self.count += 1
         name = "_".join([scene, solver, f"r{ranks}"] + [f"{k}{v}" for k, v in options.items() if k not in QM16])
         folder = self.out / "runs" / f"{self.count:04d}_{name}"
-        command = [self.nscdd, "run", SOURCE / "sample_scenes" / f"{scene}.toml", "--quiet", "--solver", solver, "--out", folder]
+        command = [self.nscdd, "run", SOURCE / "sample_scenes" / f"{scene}.toml", "--quiet", "--solver", solver, "--out",
+                   folder]
         if ranks:
             command = ["mpirun", "--oversubscribe", "-n", ranks] + command
         if steps:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the paper did not measure: the enriched interface with several sweeps per stage, the conjugate gradient's preconditioners,
-stability in lambda, the correction of interpenetration, and what an update costs."""
+"""What the paper did not measure: the enriched interface with several sweeps per stage, the conjugate gradient's
+preconditioners, stability in lambda, the correction of interpenetration, and what an update costs."""
 
 from plots import table
 from runs import SCENES
@@ -15,7 +15,8 @@ def updates(program, quick):
     """Interface updates to nat 1e-3 / 1e-4, one cold step, over sweeps per stage, lambda and grid; plain, then accelerated."""
     grids, counts, lambdas = (["1x2", "8x8"], [1, 5], [10]) if quick else (["1x2", "4x4", "8x8"], [1, 5, 25], [10, 100, 1000])
     text = ""
-    for mu, scene, how, extra in [(*item, *kind) for item in SCENES.items() for kind in (("plain", {}), ("Anderson", ACCELERATED))]:
+    for mu, scene, how, extra in [(*item, *kind) for item in SCENES.items()
+                                  for kind in (("plain", {}), ("Anderson", ACCELERATED))]:
         rows = []
         for grid in grids:
             for n_gs in counts:
@@ -23,8 +24,10 @@ def updates(program, quick):
                 for value in [0] + lambdas:
                     cells = []
                     for tolerance in ("1e-3", "1e-4"):
-                        run = program.run(scene, "fea", steps=1, cold=True, subdomains=grid, sweeps_per_stage=n_gs, tolerance=tolerance,
-                                          criterion="nat", test_every=1, max_iterations=4500 if value == 0 else 2500, **extra, **{"lambda": value})
+                        run = program.run(scene, "fea", steps=1, cold=True, subdomains=grid, sweeps_per_stage=n_gs,
+                                          tolerance=tolerance,
+                                          criterion="nat", test_every=1, max_iterations=4500 if value == 0 else 2500, **extra,
+                                          **{"lambda": value})
                         cells.append(f"{run.last('iterations'):.0f}" if run.last("status") == "converged" else "-")
                     row.append(" / ".join(cells))
                 rows.append(row)
@@ -33,7 +36,8 @@ def updates(program, quick):
 
 
 def preconditioners(program, quick):
-    """Iterations of one interface solve by the conjugate gradient to 1e-6, in step 5, when the contacts that carry are known."""
+    """Iterations of one interface solve by the conjugate gradient to 1e-6, in step 5, when the contacts that carry
+    are known."""
     grids, lambdas = (["1x2", "4x4"], [1, 100]) if quick else (["1x2", "2x2", "4x4", "8x8"], [1, 100, 1e4, 1e6])
     rows = []
     for grid in grids:
@@ -50,7 +54,8 @@ def preconditioners(program, quick):
 
 
 def stability(program, quick):
-    """Status, updates and nat of one cold step: FEA with 5 sweeps per stage, plain; accelerated and guarded (default); nat of IEA."""
+    """Status, updates and nat of one cold step: FEA with 5 sweeps per stage, plain; accelerated and guarded (default);
+    nat of IEA."""
     lambdas = [0, 10, 1e4, 1e8] if quick else [0, 1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8]
     text = ""
     for mu, scene in SCENES.items():
@@ -79,17 +84,20 @@ def correction(program, quick):
     for value in [100] if quick else [10, 100, 1e4]:
         for name, options in ways.items():
             run = program.run(SAMPLE, "iea", subdomains="1x2", **options, **{"lambda": value})
-            rows.append([f"{value:g}", name, f"{run.last('mean_interpenetration'):.1e}", f"{run.largest('max_interpenetration'):.1e}",
+            rows.append([f"{value:g}", name, f"{run.last('mean_interpenetration'):.1e}",
+                         f"{run.largest('max_interpenetration'):.1e}",
                          f"{run.mean('sweeps'):.0f}", f"{run.total('injected_energy'):.2g}"])
     return table(["lambda", "correction", "final mean [m]", "largest [m]", "sweeps a step", "injected energy bound [J]"], rows)
 
 
 def cost(program, quick):
-    """A sweep of all contacts; a mean update in a step of FEA, and how many of 299 factorised anew; the one update of a step of IEA."""
+    """A sweep of all contacts; a mean update in a step of FEA, and how many of 299 factorised anew; the one update
+    of a step of IEA."""
     rows = []
     for scene, grid in ((SAMPLE, "1x2"),) if quick else ((SAMPLE, "1x2"), (SAMPLE, "4x4"), ("box_10k", "4x4")):
         steps = 1
-        sweep = program.run(scene, "nscdd", steps=steps, cold=True, subdomains=grid, test_every=1000, max_iterations=1000, tolerance=0)
+        sweep = program.run(scene, "nscdd", steps=steps, cold=True, subdomains=grid, test_every=1000, max_iterations=1000,
+                            tolerance=0)
         row = [scene, grid, f"{1e3 * sweep.total('seconds_solve') / sweep.total('sweeps'):.3f}"]
         for interface in ("direct", "cg"):
             # The first update of a step factorises; with a frozen active set all the others only solve.
@@ -100,5 +108,6 @@ def cost(program, quick):
                     f"({many.total('factorisations'):.0f} of {many.total('interface_updates'):.0f} factorised)",
                     f"{1e3 * few.total('seconds_interface') / few.total('interface_updates'):.3f}"]
         rows.append(row)
-    return table(["scene", "subdomains", "sweep [ms]", "direct, FEA [ms]", "direct, once a step [ms]", "cg, FEA [ms]", "cg, once a step [ms]"],
+    return table(["scene", "subdomains", "sweep [ms]", "direct, FEA [ms]", "direct, once a step [ms]", "cg, FEA [ms]",
+                  "cg, once a step [ms]"],
                  rows)

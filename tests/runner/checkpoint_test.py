@@ -86,7 +86,8 @@ class Continuation(ProgramTest):
         self.compare(scene, at=20)
 
     def test_solver_auto(self):
-        """It climbs in the first steps: a checkpoint may fall on an exchange of the solver, and the ladder goes on from its rung."""
+        """It climbs in the first steps: a checkpoint may fall on an exchange of the solver, and the ladder
+        goes on from its rung."""
         text = BOX.read_text().replace('"packings/', f'"{SCENES.name}/packings/')
         (self.folder / SCENES.name).symlink_to(SCENES)
         scene = self.write("auto.toml", text[:text.index("[solver]")] + """

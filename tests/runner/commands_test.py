@@ -99,7 +99,8 @@ class Solve(unittest.TestCase):
 
     def test_decomposition(self):
         path = SOURCE / "tests/data/golden/c8_pyramid6.json"
-        done = nscdd("solve", path, "--solver", "nscdd", "--subdomains", "2x1", "--tolerance", "1e-13", "--max-iterations", 100000)
+        done = nscdd("solve", path, "--solver", "nscdd", "--subdomains", "2x1", "--tolerance", "1e-13", "--max-iterations",
+                     100000)
         found, stored = json.loads(done.stdout), json.loads(path.read_text())
         self.assertEqual(found["status"], "converged")
         for a, b in zip(found["V_end"], stored["V_end"]):
@@ -142,7 +143,8 @@ class Lists(unittest.TestCase):
     def test_solvers(self):
         done = nscdd("solvers")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for word in ("nscd:", "nscdd:", "fea:", "rea:", "iea:", "newton:", "acceleration", "tolerance", "subdomains", "lambda", "[m]", "NXxNY"):
+        for word in ("nscd:", "nscdd:", "fea:", "rea:", "iea:", "newton:", "acceleration", "tolerance", "subdomains", "lambda",
+                     "[m]", "NXxNY"):
             self.assertIn(word, done.stdout)
 
     def test_check_every_scene(self):

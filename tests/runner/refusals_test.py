@@ -43,7 +43,8 @@ class Refusals(ProgramTest):
                 self.expect(fragments, "run", scene)
 
     def test_on_two_ranks(self):
-        scene = self.write("bad.toml", TWO_DISKS.replace("radius = 1.0", "radius = -1.0").replace('"nscd"', '"nscdd"\nsubdomains=[2,1]'))
+        scene = self.write("bad.toml", TWO_DISKS.replace("radius = 1.0", "radius = -1.0")
+                           .replace('"nscd"', '"nscdd"\nsubdomains=[2,1]'))
         self.expect(["radius"], "run", scene, ranks=2)
 
     def test_no_bodies(self):
@@ -83,7 +84,8 @@ class Refusals(ProgramTest):
 
     def test_export(self):
         scene = self.write("test.toml", TWO_DISKS)
-        flying = self.write("flying.toml", TWO_DISKS.replace("point = [0.0, 0.0]", "point = [0.0, -9.0]").replace("3.0]", "9.0]"))
+        flying = self.write("flying.toml", TWO_DISKS.replace("point = [0.0, 0.0]", "point = [0.0, -9.0]")
+                            .replace("3.0]", "9.0]"))
         self.expect(["--fclib", "--json"], "export", scene)
         self.expect(["no contact", "step"], "export", flying, "--fclib", "p.h5")
         self.expect(["p.h5"], "export", scene, "--fclib", "nowhere/p.h5")
@@ -93,14 +95,17 @@ class Refusals(ProgramTest):
     def test_problem_files(self):
         bad = self.write("bad.json", '{"dt": 0.01, "bodies": [[0, 1]], "contacts": []}')
         self.expect(["bad.json", "bodies", "10"], "solve", bad)
-        for key, rows in (("arms", "[[0, 0, 0, 0]]"), ("forces", "[[0, 0, 0], [0, 0, 0]]"), ("mu", "[0.3]"), ("sites", "[[0]]")):
-            bad = self.write("bad.json", '{"dt": 0.01, "bodies": [[0, 1, 0, 0, 0, 0, 1, 1, 1, 0]], "contacts": [], "%s": %s}' % (key, rows))
+        for key, rows in (("arms", "[[0, 0, 0, 0]]"), ("forces", "[[0, 0, 0], [0, 0, 0]]"), ("mu", "[0.3]"),
+                          ("sites", "[[0]]")):
+            bodies = '"bodies": [[0, 1, 0, 0, 0, 0, 1, 1, 1, 0]]'
+            bad = self.write("bad.json", '{"dt": 0.01, %s, "contacts": [], "%s": %s}' % (bodies, key, rows))
             self.expect(["bad.json", key], "solve", bad)
         deep = self.write("deep.json", '{"dt": ' + '{"a": ' * 1000000 + "1" + "}" * 1000000 + "}")
         self.expect(["deep.json", "dt", "object"], "solve", deep)
         deep = self.write("deep.json", '{"dt": 0.1, "bodies": ' + "[" * 1000000 + "]" * 1000000 + "}")
         self.expect(["deep.json", "bodies"], "solve", deep)
-        for text, word in (('{"dt": NaN}', "JSON"), ('{"dt": 1e999}', "JSON"), ('{"dt": "\\u001b[2J"}', "string"), ('{"' + "x" * 9999, "JSON")):
+        for text, word in (('{"dt": NaN}', "JSON"), ('{"dt": 1e999}', "JSON"), ('{"dt": "\\u001b[2J"}', "string"),
+                           ('{"' + "x" * 9999, "JSON")):
             self.expect(["bad.json", word], "solve", self.write("bad.json", text))
         worse = self.write("bad.json", "{")
         self.expect(["bad.json", "JSON"], "solve", worse)

@@ -41,7 +41,8 @@ NUMBERS_OF_TIME = {"seconds", "seconds_least", "seconds_most"}
 
 class Tradeoff(ProgramTest):
     def measure(self, *arguments, scene=HEAP, out="out"):
-        done = nscdd("tradeoff", self.write("heap.toml", scene), "--quick", "--out", self.folder / out, *arguments, timeout=1800)
+        done = nscdd("tradeoff", self.write("heap.toml", scene), "--quick", "--out", self.folder / out, *arguments,
+                     timeout=1800)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout, read_csv(self.folder / out / "tradeoff.csv")
 
@@ -118,7 +119,8 @@ class Tradeoff(ProgramTest):
         depths = [float(r["interpenetration_max"]) for r in front]
         self.assertEqual(seconds, sorted(seconds))
         self.assertEqual(depths, sorted(depths, reverse=True))
-        done = nscdd("run", self.write("heap.toml", HEAP), "--solver", "auto", "--subdomains", "1x1", "--out", self.folder / "run")
+        done = nscdd("run", self.write("heap.toml", HEAP), "--solver", "auto", "--subdomains", "1x1", "--out",
+                     self.folder / "run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("heap.front.csv", done.stdout)
 
@@ -139,8 +141,9 @@ class Tradeoff(ProgramTest):
         self.assertIn("left out 1 setting: solver 'nscd' has no option 'subdomains'", text)
 
     def test_diverging_settings_are_shown_as_such(self):
-        mine = self.write("mine.toml", '[[settings]]\nname = "wild"\nsolver = "fea"\nsubdomains = [2, 2]\nlambda = 1e8\nsweeps_per_stage = 1\n'
-                          'max_iterations = 30\n[[settings]]\nname = "short"\nsolver = "nscd"\ntolerance = 1e-12\nmax_iterations = 3\n')
+        mine = self.write("mine.toml", '[[settings]]\nname = "wild"\nsolver = "fea"\nsubdomains = [2, 2]\nlambda = 1e8\n'
+                          'sweeps_per_stage = 1\nmax_iterations = 30\n'
+                          '[[settings]]\nname = "short"\nsolver = "nscd"\ntolerance = 1e-12\nmax_iterations = 3\n')
         text, rows = self.measure("--settings", mine)
         by = {(r["view"], r["setting"]): r for r in rows}
         self.assertIn(by["runs", "wild"]["status"], {"diverged", "iteration_limit", "failed", "stalled"})
@@ -158,7 +161,8 @@ class Tradeoff(ProgramTest):
 
     def test_clusters_and_moving_walls(self):
         for scene in ("clusters", "drum"):
-            done = nscdd("tradeoff", SCENES / f"{scene}.toml", "--quick", "--solvers", "nscd,box2d", "--out", self.folder / scene)
+            done = nscdd("tradeoff", SCENES / f"{scene}.toml", "--quick", "--solvers", "nscd,box2d", "--out",
+                         self.folder / scene)
             self.assertEqual(done.returncode, 0, done.stderr)  # among other things: the problem read is the one that was solved
 
     def test_cold(self):
@@ -252,7 +256,8 @@ class Auto(ProgramTest):
         done = nscdd("check", self.write("heap.toml", AUTO))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("auto, first rung: nscd", done.stdout)
-        for line, sentence in (("accuracy = { interpenetration = -1 }", r"heap.toml:\d+: key 'solver.accuracy.interpenetration'"),
+        for line, sentence in (("accuracy = { interpenetration = -1 }",
+                                r"heap.toml:\d+: key 'solver.accuracy.interpenetration'"),
                                ("accuracy = { interpenetration = 1, of = \"mile\" }", "mean_radius"),
                                ("accuracy = { depth = 1 }", "interpenetration"),
                                ("budget_seconds_per_step = 0", "budget_seconds_per_step"),

@@ -8,15 +8,18 @@ import tempfile
 import unittest
 
 import rules
+import sources
 import structure
 
 SOUND = {
-    "core/include/nscdd/body_table.h": "#pragma once\n#include <vector>\nnamespace nscdd {\nstruct BodyTable;\nstruct BodyTable {\n"
+    "core/include/nscdd/body_table.h": "#pragma once\n#include <vector>\nnamespace nscdd {\nstruct BodyTable;\n"
+                                       "struct BodyTable {\n"
                                        "};\n}  // namespace nscdd\n",
     "core/include/nscdd/time_stepper.h": '#include "nscdd/body_table.h"\n',
     "core/include/nscdd/mpi_communicator.h": "#include <mpi.h>\n",
     "core/src/nlgs/sweep.h": '#include "nscdd/body_table.h"\n',
-    "core/src/nlgs/sweep.cpp": '#include "nlgs/sweep.h"\n#include <Eigen/Core>\nnamespace nscdd {\nnamespace {\nclass BodyTable {};\n'
+    "core/src/nlgs/sweep.cpp": '#include "nlgs/sweep.h"\n#include <Eigen/Core>\nnamespace nscdd {\nnamespace {\n'
+                               'class BodyTable {};\n'
                                "}  // namespace\nclass BodyTable::Row {\n};\n}  // namespace nscdd\n",
     "core/src/parallel/mpi_communicator.cpp": '#include "nscdd/mpi_communicator.h"\n#include <mpi.h>\n',
     "adapters/box2d/src/store.cpp": '#include <box2d/box2d.h>\n#include "nscdd/body_table.h"\n',
@@ -94,6 +97,34 @@ class StructureTest(unittest.TestCase):
     def test_a_missing_file_is_found(self):
         (self.root / "LICENSE").unlink()
         self.assertEqual(structure.check_tree(self.root), ["LICENSE is missing in the project's root."])
+
+    def test_unusual_sources_are_found(self):
+        licence = f"// {sources.LICENCE}\n"
+        file = self.root / "core/src/nlgs/sweep.cpp"
+        for path in sources.sources(self.root, sources.CPP | sources.SCRIPTS):
+            path.write_text(licence if path != file else licence + "/" * sources.COLUMNS + "\n")
+        self.assertEqual(list(sources.check_lines(self.root)), [])
+        file.write_text(licence + "/" * (sources.COLUMNS + 1) + "\n")
+        self.assertEqual(list(sources.check_lines(self.root)), ["core/src/nlgs/sweep.cpp:2 has 129 columns; at most 128."])
+        file.write_text(licence)
+        (self.root / ".ci").mkdir()
+        for name in ("core/src/nlgs/sweep.cpp", "CMakeLists.txt", "test.sh", ".ci/run", "tests/unit/new_test.py"):
+            before = (self.root / name).read_text() if (self.root / name).exists() else licence
+            (self.root / name).write_text("int x;\n")
+            findings = list(sources.check_lines(self.root))
+            self.assertEqual(len(findings), 1, findings)
+            self.assertIn(f"{name} does not begin with", findings[0])
+            (self.root / name).write_text(before)
+
+    @unittest.skipIf(sources.clang_format() is None, "no clang-format")
+    def test_unformatted_sources_are_found(self):
+        (self.root / ".clang-format").write_text("BasedOnStyle: Google\n")
+        for path in sources.sources(self.root, sources.CPP):
+            path.write_text("int x;\n")
+        self.assertEqual(list(sources.check_format(self.root, sources.clang_format())), [])
+        (self.root / "core/src/nlgs/sweep.cpp").write_text("int  x;\nint  y;\n")
+        self.assertEqual(list(sources.check_format(self.root, sources.clang_format())),
+                         ["core/src/nlgs/sweep.cpp is not formatted: run clang-format -i on it."])
 
     def test_other_symbols_are_found(self):
         findings = list(structure.check_plugin_symbols(SHARED_LIBRARY))

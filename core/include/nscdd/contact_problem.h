@@ -25,6 +25,7 @@ struct ContactProblem {
   double approach_speed = 0.0;       ///< [m/s] largest -v_n before the step: scale of nat_max
 };
 
+/// What a solver makes of a ContactProblem: rows are those of its bodies and contacts.
 struct ContactSolution {
   std::vector<Twist> velocity;          ///< V of each body; of one without contact: V_f
   std::vector<Vec2> impulse;            ///< (r_n, r_t) of each contact [N s]

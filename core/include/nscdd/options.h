@@ -54,6 +54,7 @@ enum class Acceleration {
   kAnderson,  ///< Anderson's: combines the last iterates (default)
 };
 
+/// Extrapolation of the iterates.
 struct AccelerationOptions {
   Acceleration method = Acceleration::kAnderson;
   int depth = 5;  ///< iterates before the last that are combined, 1 to 8

@@ -24,6 +24,7 @@ struct ContactImpulse {
   Vec2 impulse;  ///< (r_n, r_t) [N s], conventions of ContactTable
 };
 
+/// How a b2World is read: its unit, its period, its joints.
 struct Box2dOptions {
   /// Length of one Box2D unit [m]. Box2D's own lengths (b2_linearSlop 0.005, b2_aabbExtension 0.1, b2_polygonRadius 0.01) are
   /// in units, so choose about the mean grain radius. Masses are in kg on both sides: a density is in kg per square unit.
@@ -55,6 +56,7 @@ struct PolygonGeometry {
   std::vector<Vec2> vertices;
 };
 
+/// What is known of a fixture in double precision.
 struct ExactShape {
   std::variant<DiskGeometry, SegmentGeometry, HalfPlaneGeometry, PolygonGeometry> geometry;
   std::optional<double> friction;     ///< [-] default: the fixture's float

@@ -13,6 +13,7 @@ namespace nscdd {
 /// The solvers of several plugins, by name.
 class SolverRegistry {
  public:
+  /// A solver and the plugin that it is in, which stays loaded as long as the entry lives.
   struct Entry {
     std::shared_ptr<const PluginLibrary> module;
     const nscdd_solver_info* info;

@@ -6,6 +6,7 @@
 
 namespace nscdd {
 
+/// What is checked, for how long, and where the results go.
 struct ValidatorOptions {
   double seconds_per_check = 20.0;                     ///< a check that takes longer has failed
   std::string only;                                    ///< if not empty: run only the checks whose name contains it
