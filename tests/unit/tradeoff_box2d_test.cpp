@@ -175,7 +175,7 @@ Rest RestOn(const std::string& walls, const std::string& velocity, const std::st
   SteppingOptions stepping;
   stepping.alert_distance = 0.05;
   for (int k = 1; k < 400; ++k) contestant->Step(0.01);
-  const StepProblem problem = ReadStepProblem(&contestant->adapter(), stepping, 0.01);
+  const StepProblem problem = contestant->Read(stepping, 0.01);
   contestant->Step(0.01);
   const StepEnd end = ReadStepEnd(contestant.get(), problem);
   return {MeasureAnswer(problem.problem, end.answer),
@@ -196,6 +196,27 @@ TEST(Box2dContestant, ADiskAtRestIsAnExactAnswerOnEveryWall) {
       EXPECT_LT(rest.interpenetration, kSlop + 1e-4) << walls << velocity;
     }
   }
+}
+
+/// Two disks that meet while one passes the other: impulses and velocities balance in the frame at the beginning of the step.
+TEST(Box2dContestant, ImpulsesBalanceInItsOwnFrame) {
+  const Scene scene = ParseScene(
+      "[time]\ndt = 0.01\nsteps = 1\n[[disks]]\ncentre = [0.0, 0.0]\nradius = 0.5\n"
+      "[[disks]]\ncentre = [0.0, 0.995]\nradius = 0.5\nvelocity = [20.0, -2.0]\n",
+      "pass.toml");
+  const auto contestant =
+      MakeBox2dContestant(scene, {"b", "box2d", {{"velocity_iterations", "50"}, {"position_iterations", "1"}}});
+  contestant->KeepImpulses(true);
+  contestant->SetGravity({0.0, -9.81});
+  SteppingOptions stepping;
+  stepping.alert_distance = 0.05;
+  const StepProblem problem = contestant->Read(stepping, 0.01);
+  ASSERT_EQ(problem.keys.size(), 1u);
+  EXPECT_NEAR(problem.problem.contacts.normal[0].x, 0.0, 1e-6);
+  contestant->Step(0.01);
+  const Answer answer = ReadStepEnd(contestant.get(), problem).answer;
+  EXPECT_GT(answer.impulse[0].x, 0.1);
+  EXPECT_LT(MeasureAnswer(problem.problem, answer).momentum_defect, 1e-4);
 }
 
 }  // namespace

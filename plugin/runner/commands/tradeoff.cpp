@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 
@@ -66,12 +67,15 @@ class TradeoffCommand {
   void Conclude(bool interrupted);
   void WriteFile(const std::string& name, const std::string& text) const;
   void StoreFront() const;
+  /// [s] since the measurement began: scouting, reference.
+  double SecondsSpent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   ProgressBar::Style BarStyle() const { return ProgressBar::StyleFor(stdout, request_.quiet); }
   void Say(const std::string& line) const {
     if (!request_.quiet) fmt::print("{}\n", line);
   }
 
   const TradeoffRequest& request_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Extent extent_;
   Scene scene_;
   SolverRegistry registry_;
@@ -206,7 +210,7 @@ void TradeoffCommand::Measure(const StopSignal& interrupt) {
   events.timed = [&](const std::vector<TradeoffRow>& rows) { csv.Rewrite(rows); };
   events.tick = [&](const std::string& note, bool failed) { bar->Update(note, failed); };
   events.interrupted = [&] { return interrupt.received() != 0; };
-  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - reference_.seconds, events);
+  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - SecondsSpent(), events);
   bar = std::make_unique<ProgressBar>(stdout, BarStyle(), measurement.ticks());
   measurement.Run();
   bar->Finish();

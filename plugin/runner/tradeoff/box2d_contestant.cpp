@@ -13,7 +13,6 @@
 #include "scene/platform.h"
 #include "tradeoff/box2d_surface.h"
 #include "tradeoff/contestant.h"
-#include "tradeoff/step_problem.h"
 
 namespace nscdd {
 namespace {
@@ -44,6 +43,11 @@ class Box2dContestant final : public Contestant {
 
   PlatformAdapter& adapter() override { return *surface_; }
   void SetGravity(Vec2 gravity) override { platform_->SetGravity(gravity); }
+  StepProblem Read(const SteppingOptions& stepping, double dt) override {
+    SteppingOptions own = stepping;
+    own.theta = 1.0;
+    return ReadStepProblem(surface_.get(), own, dt);
+  }
   void Step(double dt) override;
   Effort LastEffort() const override;
   void KeepImpulses(bool keep) override;

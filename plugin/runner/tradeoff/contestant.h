@@ -15,6 +15,7 @@
 #include "scene/platform.h"
 #include "scene/scene.h"
 #include "tradeoff/setting.h"
+#include "tradeoff/step_problem.h"
 
 namespace nscdd {
 
@@ -44,6 +45,10 @@ class Contestant {
   virtual ~Contestant() = default;
   virtual PlatformAdapter& adapter() = 0;
   virtual void SetGravity(Vec2 gravity) = 0;
+  /// The problem of the next step, linearised where this solver finds its contacts. Box2D does so where the bodies are at the
+  /// beginning of the step (theta = 1, whatever `stepping` says): half-way through it the normals of bodies that pass each
+  /// other have turned, and its impulses would not balance.
+  virtual StepProblem Read(const SteppingOptions& stepping, double dt) = 0;
   /// One step of `dt` [s]: this is what is timed.
   virtual void Step(double dt) = 0;
   virtual Effort LastEffort() const = 0;

@@ -3,7 +3,6 @@
 #include "nscdd/host/solver.h"
 #include "scene/platform.h"
 #include "tradeoff/contestant.h"
-#include "tradeoff/step_problem.h"
 
 namespace nscdd {
 namespace {
@@ -19,6 +18,9 @@ class PluginContestant final : public Contestant {
 
   PlatformAdapter& adapter() override { return platform_->adapter(); }
   void SetGravity(Vec2 gravity) override { platform_->SetGravity(gravity); }
+  StepProblem Read(const SteppingOptions& stepping, double dt) override {
+    return ReadStepProblem(&platform_->adapter(), stepping, dt);
+  }
   void Step(double dt) override { solver_.Step(dt); }
   Effort LastEffort() const override { return EffortOf(solver_.Report().solve); }
   void KeepImpulses(bool) override {}

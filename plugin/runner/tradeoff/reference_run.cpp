@@ -55,7 +55,7 @@ class Recorder {
                                   const std::map<ContactKey, Vec2>& warm) {
     const double dt = plan_.scene->time.dt;
     contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt));
-    StepProblem problem = ReadStepProblem(&contestant->adapter(), plan_.stepping, dt);
+    StepProblem problem = contestant->Read(plan_.stepping, dt);
     contestant->Step(dt);
     const Effort effort = contestant->LastEffort();
     StepEnd end = ReadStepEnd(contestant, problem);

@@ -29,7 +29,7 @@ double RunsView::MeasureStep(double reference, Contestant* contestant, const Set
   const double dt = plan_.scene->time.dt / setting.substeps;
   double seconds = 0.0;
   for (int k = 0; k < setting.substeps; ++k) {
-    const StepProblem problem = ReadStepProblem(&contestant->adapter(), plan_.stepping, dt);
+    const StepProblem problem = contestant->Read(plan_.stepping, dt);
     const double start = ProcessSeconds();
     contestant->Step(dt);
     seconds += ProcessSeconds() - start;
