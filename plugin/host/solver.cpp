@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 
 #include "layout.h"
@@ -198,6 +199,8 @@ ContactSolution Solver::Solve(const ContactProblem& problem, const std::vector<V
 
 StepReport Solver::Report() const {
   auto report = WithHeader<nscdd_report>();
+  // Says which statuses are known here; an older plugin would refuse a newer minor than its own.
+  report.header.abi_minor = std::min(library_->plugin().header.abi_minor, NSCDD_ABI_MINOR);
   Check("report", library_->plugin().report(handle_.get(), &report));
   return Translate(report);
 }

@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 #define NSCDD_ABI_MAJOR 1u
-#define NSCDD_ABI_MINOR 1u /* 1: load_states */
+#define NSCDD_ABI_MINOR 2u /* 1: load_states; 2: NSCDD_FIXED */
 #define NSCDD_ENTRY_SYMBOL "nscdd_plugin_entry"
 
 typedef enum nscdd_result {
@@ -178,7 +178,9 @@ typedef enum nscdd_status {
   NSCDD_ITERATION_LIMIT = 1,
   NSCDD_STALLED = 2,
   NSCDD_DIVERGED = 3,
-  NSCDD_INCOMPLETE = 4 /* an incomplete resolution did all that it does; the criterion does not hold for the whole sample */
+  NSCDD_INCOMPLETE = 4, /* an incomplete resolution did all that it does; the criterion does not hold for the whole sample */
+  NSCDD_FIXED = 5 /* since minor 2: tolerance 0, it made the iterations asked for. Where the header of the host's nscdd_report is
+                   * of a lower minor, NSCDD_ITERATION_LIMIT stands for it */
 } nscdd_status;
 
 /* Of the last step or solve. Meaning of the numbers: SolveReport and StepReport in nscdd/report.h. */

@@ -120,7 +120,7 @@ std::vector<Option> StoppingTable() {
   return {
       Real(
           "tolerance", "-", [](SolverSettings& s) -> double& { return Stopping(s).tolerance; }, kNotNegative,
-          "the iteration stops when the criterion falls below it; 0: only at max_iterations"),
+          "the iteration stops when the criterion falls below it; 0: it makes max_iterations iterations, status fixed"),
       Choice<Criterion>(
           "criterion", [](SolverSettings& s) -> Criterion& { return Stopping(s).criterion; },
           {"nat", "nat_max", "quad", "maxm", "qm16"},

@@ -9,9 +9,13 @@ static_assert(static_cast<int>(SolveStatus::kIterationLimit) == NSCDD_ITERATION_
 static_assert(static_cast<int>(SolveStatus::kStalled) == NSCDD_STALLED);
 static_assert(static_cast<int>(SolveStatus::kDiverged) == NSCDD_DIVERGED);
 static_assert(static_cast<int>(SolveStatus::kIncomplete) == NSCDD_INCOMPLETE);
+static_assert(static_cast<int>(SolveStatus::kFixed) == NSCDD_FIXED);
+
+constexpr std::uint32_t kMinorOfFixed = 2;
 
 void CopySolve(const SolveReport& solve, nscdd_report* target) {
-  target->status = static_cast<std::int32_t>(solve.status);
+  const bool is_known = solve.status != SolveStatus::kFixed || target->header.abi_minor >= kMinorOfFixed;
+  target->status = is_known ? static_cast<std::int32_t>(solve.status) : NSCDD_ITERATION_LIMIT;
   target->reason = solve.reason.c_str();
   target->contacts = solve.contacts;
   target->active = solve.active;

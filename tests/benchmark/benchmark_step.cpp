@@ -106,7 +106,7 @@ void MeasureRun(const Entry& entry, const Race& race, Record* record) {
   contestant->KeepImpulses(true);
   for (std::int64_t k = 1; k <= race.steps; ++k) {
     contestant->SetGravity(race.Gravity(k));
-    const StepProblem problem = ReadStepProblem(&contestant->adapter(), race.stepping, race.scene.time.dt);
+    const StepProblem problem = contestant->Read(race.stepping, race.scene.time.dt);
     contestant->Step(race.scene.time.dt);
     const StepEnd end = ReadStepEnd(contestant.get(), problem);
     MeasureAnswers(problem, contestant->impulses(), end.answer, record);

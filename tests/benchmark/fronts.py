@@ -109,8 +109,8 @@ def main(folder):
         if unsound:
             print(f"Not ranked: {', '.join(unsound)}.\n")
         print_front(problems, "velocity_error", "The same problems, front of the velocity error")
-        print_front(runs, "nat", "Whole runs, front of nat")
-        print_front(runs, "interpenetration_max", "Whole runs, front of the largest interpenetration")
+        print_front(runs, "nat", "Runs, front of nat")
+        print_front(runs, "interpenetration_max", "Runs, front of the largest interpenetration")
         print_box2d(runs)
         print_iea(runs)
 

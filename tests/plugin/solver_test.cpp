@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "expect_error.h"
+#include "layout.h"
 #include "validator/two_disk_host.h"
 
 namespace nscdd {
@@ -175,6 +176,43 @@ TEST(Solver, RefusesToBeReentered) {
   solver.Step(kTimeStep);
   EXPECT_TRUE(context.refused);
   EXPECT_EQ(context.inner.commits(), 1);
+}
+
+// The header of its report says what a host knows; hosts of ABI 1.0 and 1.1 have no NSCDD_FIXED.
+TEST(Solver, OlderHostsAreToldAnIterationLimit) {
+  const auto library = PluginLibrary::Load(PLUGIN_FILE);
+  const nscdd_plugin& plugin = library->plugin();
+  const char* names[] = {"tolerance", "max_iterations"};
+  const char* values[] = {"0", "3"};
+  auto create = WithHeader<nscdd_create_arguments>();
+  create.solver = "nscd";
+  create.option_count = 2;
+  create.option_names = names;
+  create.option_values = values;
+  nscdd_solver* solver = nullptr;
+  ASSERT_EQ(plugin.create(&create, &solver, nullptr, 0), NSCDD_OK);
+  const ContactProblem p = Column(4);
+  auto problem = WithHeader<nscdd_problem>();
+  problem.body_count = p.mass.size();
+  problem.mass = p.mass.data();
+  problem.inertia = p.inertia.data();
+  problem.free_velocity = AsDoubles(p.free_velocity.data());
+  problem.impulse = AsDoubles(p.impulse.data());
+  problem.contacts = ShowContacts(p.contacts);
+  problem.offset = p.offset.data();
+  std::vector<double> velocity(3 * p.mass.size()), impulse(2 * p.contacts.size());
+  auto solution = WithHeader<nscdd_solution>();
+  solution.velocity = velocity.data();
+  solution.impulse = impulse.data();
+  ASSERT_EQ(plugin.solve(solver, &problem, &solution), NSCDD_OK);
+  for (const std::uint32_t minor : {0u, 1u, 2u}) {
+    auto report = WithHeader<nscdd_report>();
+    report.header.abi_minor = minor;
+    ASSERT_EQ(plugin.report(solver, &report), NSCDD_OK);
+    EXPECT_EQ(report.status, minor < 2 ? NSCDD_ITERATION_LIMIT : NSCDD_FIXED);
+  }
+  plugin.destroy(solver);
+  EXPECT_EQ(Make("nscd", {{"tolerance", "0"}, {"max_iterations", "3"}}).Solve(p).report.status, SolveStatus::kFixed);
 }
 
 }  // namespace

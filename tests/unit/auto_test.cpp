@@ -32,22 +32,22 @@ AutoSettings Depth(double wish) { return {wish, true, {}}; }
 TEST(AutoWatcher, StaysWhileAllIsWell) {
   Watcher watcher(Depth(1e-2));  // 5e-3 m
   EXPECT_FALSE(watcher.IsTooDeep(Step(4.9e-3)));
-  EXPECT_EQ(watcher.Judge(Step(4.9e-3), false, 0.0, 1.0, true, true), Verdict::kStay);
+  EXPECT_EQ(watcher.Judge(Step(4.9e-3), 0.0, 1.0, true, true), Verdict::kStay);
   EXPECT_EQ(watcher.state().escalations, 0);
   EXPECT_NE(watcher.Summary("x", "y").find("no step of 1 went deeper than wished"), std::string::npos);
 }
 
 TEST(AutoWatcher, ClimbsWhenTheSolverLetsContactsDeepen) {
   Watcher watcher(Depth(1e-2));
-  EXPECT_EQ(watcher.Judge(Step(6e-3), false, 2e-3, 1.0, true, true), Verdict::kClimb);
-  EXPECT_EQ(watcher.Judge(Step(8e-3), false, 2e-3, 1.0, false, true), Verdict::kStay);  // at the top: said, not done
+  EXPECT_EQ(watcher.Judge(Step(6e-3), 2e-3, 1.0, true, true), Verdict::kClimb);
+  EXPECT_EQ(watcher.Judge(Step(8e-3), 2e-3, 1.0, false, true), Verdict::kStay);  // at the top: said, not done
   EXPECT_EQ(watcher.state().escalations, 1);
   EXPECT_NE(watcher.Summary("x", "y").find("2 of 2 steps went deeper"), std::string::npos);
 }
 
 TEST(AutoWatcher, DoesNotBlameTheSolverForGeometryOrForTheStart) {
   Watcher watcher(Depth(1e-2));
-  EXPECT_EQ(watcher.Judge(Step(6e-3), false, 1e-6, 1.0, true, true), Verdict::kStay);
+  EXPECT_EQ(watcher.Judge(Step(6e-3), 1e-6, 1.0, true, true), Verdict::kStay);
   EXPECT_NE(watcher.Summary("x", "y").find("in 1 of them for the time step's sake"), std::string::npos);
   EXPECT_FALSE(watcher.IsTooDeep(Step(6e-3)));  // it was so before
   Watcher deep(Depth(1e-2));
@@ -59,21 +59,20 @@ TEST(AutoWatcher, DoesNotBlameTheSolverForGeometryOrForTheStart) {
 TEST(AutoWatcher, ClimbsWhenAStepFails) {
   for (const SolveStatus status : {SolveStatus::kIterationLimit, SolveStatus::kStalled, SolveStatus::kDiverged}) {
     Watcher watcher(Depth(1e-2));
-    EXPECT_EQ(watcher.Judge(Step(0.0, status), false, 0.0, 1.0, true, false), Verdict::kClimb);
+    EXPECT_EQ(watcher.Judge(Step(0.0, status), 0.0, 1.0, true, false), Verdict::kClimb);
   }
   Watcher watcher(Depth(1e-2));
-  EXPECT_EQ(watcher.Judge(Step(0.0, SolveStatus::kIterationLimit), true, 0.0, 1.0, true, false), Verdict::kStay);  // as asked
-  EXPECT_EQ(watcher.Judge(Step(0.0, SolveStatus::kIncomplete), true, 0.0, 1.0, true, false), Verdict::kStay);
+  EXPECT_EQ(watcher.Judge(Step(0.0, SolveStatus::kFixed), 0.0, 1.0, true, false), Verdict::kStay);  // as asked
+  EXPECT_EQ(watcher.Judge(Step(0.0, SolveStatus::kIncomplete), 0.0, 1.0, true, false), Verdict::kStay);
   EXPECT_TRUE(watcher.IsTooDeep(Step(std::numeric_limits<double>::quiet_NaN())));
 }
 
 TEST(AutoWatcher, KeepsTheBudget) {
   Watcher watcher({{}, true, 1e-3});
-  for (int k = 0; k < 9; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);
-  EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kClimb);
-  EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 2e-3, true, true), Verdict::kDescend);
-  for (int k = 0; k < 30; ++k)
-    EXPECT_EQ(watcher.Judge(Step(1.0), false, 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
+  for (int k = 0; k < 9; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), 0.0, 4e-4, true, true), Verdict::kStay);
+  EXPECT_EQ(watcher.Judge(Step(1.0), 0.0, 4e-4, true, true), Verdict::kClimb);
+  EXPECT_EQ(watcher.Judge(Step(1.0), 0.0, 2e-3, true, true), Verdict::kDescend);
+  for (int k = 0; k < 30; ++k) EXPECT_EQ(watcher.Judge(Step(1.0), 0.0, 4e-4, true, true), Verdict::kStay);  // once bitten
   EXPECT_EQ(watcher.state().escalations, 1);
   EXPECT_EQ(watcher.state().descents, 1);
   EXPECT_NE(watcher.Summary("x", "y").find("1 of 41 steps took longer"), std::string::npos);

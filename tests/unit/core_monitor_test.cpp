@@ -57,6 +57,20 @@ TEST(Status, IterationLimit) {
   ExpectReason(s.report, "after 13 iterations, tolerance 1e-09");
 }
 
+// Without a tolerance the number of iterations is what was asked for, whatever the residual did on the way.
+TEST(Status, Fixed) {
+  NscdOptions o = Options(0.0, 40);
+  o.stopping.stall_iterations = 1;
+  for (const Acceleration method : {Acceleration::kNone, Acceleration::kAnderson}) {
+    o.acceleration.method = method;
+    const ContactSolution s = SolveContactProblem(SampleProblem({}), o);
+    EXPECT_EQ(s.report.status, SolveStatus::kFixed);
+    EXPECT_TRUE(IsAsAsked(s.report.status));
+    EXPECT_EQ(s.report.iterations, 40);
+    ExpectReason(s.report, "after 40 iterations, as many as asked for");
+  }
+}
+
 // Rounding is a floor that a residual cannot fall through.
 TEST(Status, Stalled) {
   NscdOptions o = Options(1e-30, 1000000, 10);

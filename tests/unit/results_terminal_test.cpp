@@ -115,6 +115,22 @@ TEST(RunSummary, GathersMeansAndMaxima) {
   }
 }
 
+TEST(RunSummary, AFixedNumberOfIterationsIsNoFailure) {
+  RunSummary summary;
+  StepRow row;
+  row.status = "fixed";
+  row.nat = 0.25;
+  for (int i = 0; i < 2; ++i) summary.Add(row);
+  EXPECT_EQ(summary.not_converged(), 0);
+  const std::string table = FormatSummary(summary);
+  EXPECT_EQ(table.find("NOT CONVERGED"), std::string::npos) << table;
+  EXPECT_NE(table.find("2 fixed"), std::string::npos) << table;
+  EXPECT_NE(
+      table.find("FIXED: in 2 steps as many iterations were made as asked for, whatever the residual (nat up to 2.50e-01)"),
+      std::string::npos)
+      << table;
+}
+
 TEST(RunSummary, NonConvergenceIsOneLoudLine) {
   const RunSummary summary = SampleSummary();
   EXPECT_EQ(summary.not_converged(), 2);

@@ -129,7 +129,7 @@ TEST(Statistics, SecondsAreMediansByStepWithoutTheMeasuringPass) {
   EXPECT_EQ(row.repetitions, 3);
 }
 
-StepMeasurement Solve(StepStatus status, double nat) {
+StepMeasurement Solve(SolveStatus status, double nat) {
   StepMeasurement m;
   m.residuals.nat = nat;
   m.effort.status = status;
@@ -142,8 +142,8 @@ StepMeasurement Solve(StepStatus status, double nat) {
 TEST(Rows, TellTheWorstStepAndMeasureInMeanRadii) {
   RowBuilder builder("runs", {"s", "nscd", {}}, 0.5);
   for (const auto status :
-       {StepStatus::kConverged, StepStatus::kIterationLimit, StepStatus::kConverged, StepStatus::kConverged}) {
-    builder.AddSolve(Solve(status, status == StepStatus::kConverged ? 1e-4 : 1e-2));
+       {SolveStatus::kConverged, SolveStatus::kIterationLimit, SolveStatus::kConverged, SolveStatus::kConverged}) {
+    builder.AddSolve(Solve(status, status == SolveStatus::kConverged ? 1e-4 : 1e-2));
   }
   builder.AddStep({1e-3, 2e-3, 4e-3}, 1.0, 1.5);
   builder.AddStep({3e-3, 2e-3, 2e-3}, 2.0, 1.9);
@@ -167,7 +167,7 @@ TEST(Rows, TellTheWorstStepAndMeasureInMeanRadii) {
 
 TEST(Rows, WhatIsNoNumberIsNotTheMedian) {
   RowBuilder builder("runs", {"s", "nscd", {}}, 1.0);
-  builder.AddSolve(Solve(StepStatus::kDiverged, std::numeric_limits<double>::quiet_NaN()));
+  builder.AddSolve(Solve(SolveStatus::kDiverged, std::numeric_limits<double>::quiet_NaN()));
   builder.AddStep({}, 0.0, 0.0);
   const TradeoffRow row = builder.Build(false, "");
   EXPECT_TRUE(std::isinf(row.nat));

@@ -17,7 +17,13 @@ enum class SolveStatus {
   kStalled,         ///< no new minimum of the residual for stall_iterations iterations, or no further step was possible
   kDiverged,        ///< the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1
   kIncomplete,  ///< an incomplete resolution (REA, IEA) did all that it does; the criterion does not hold for the whole sample
+  kFixed,       ///< tolerance 0: it made the max_iterations iterations that it was asked for
 };
+
+/// Whether the solve did what it was asked for.
+constexpr bool IsAsAsked(SolveStatus status) {
+  return status == SolveStatus::kConverged || status == SolveStatus::kIncomplete || status == SolveStatus::kFixed;
+}
 
 /// The word of a status in files and options.
 constexpr const char* NameOf(SolveStatus status) {
@@ -30,6 +36,8 @@ constexpr const char* NameOf(SolveStatus status) {
       return "stalled";
     case SolveStatus::kIncomplete:
       return "incomplete";
+    case SolveStatus::kFixed:
+      return "fixed";
     case SolveStatus::kDiverged:
       break;
   }

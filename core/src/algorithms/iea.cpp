@@ -49,7 +49,8 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
     NscddOptions closing{options.stopping, options.partition, 1, {}};
     closing.stopping.max_iterations = options.closing_updates;
     SolveReport report = Solve(problem, closing, communicator, workspace, state);
-    if (report.status == SolveStatus::kIterationLimit) report.status = SolveStatus::kIncomplete;
+    const bool at_limit = report.status == SolveStatus::kIterationLimit || report.status == SolveStatus::kFixed;
+    if (at_limit) report.status = SolveStatus::kIncomplete;
     report.iterations += local.sweeps;
     report.sweeps += sweeps;
     return stages.Close(std::move(report));

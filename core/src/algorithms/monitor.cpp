@@ -194,12 +194,17 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
     best_iteration_ = iteration;
     KeepBest(state);
   }
+  const bool is_fixed = options_.tolerance == 0.0;
+  if (iteration >= options_.max_iterations && is_fixed) {
+    Stop(SolveStatus::kFixed, fmt::format("{} is {:.3g} after {} iterations, as many as asked for", name, measure, iteration));
+    return true;
+  }
   if (iteration >= options_.max_iterations) {
     Stop(SolveStatus::kIterationLimit,
          fmt::format("{} is {:.3g} after {} iterations, tolerance {:.3g}", name, measure, iteration, options_.tolerance));
     return true;
   }
-  if (iteration - best_iteration_ >= options_.stall_iterations) {
+  if (!is_fixed && iteration - best_iteration_ >= options_.stall_iterations) {
     Stop(SolveStatus::kStalled,
          fmt::format("{} has not fallen below {:.3g} for {} iterations", name, best_, iteration - best_iteration_));
     return true;

@@ -100,11 +100,6 @@ std::unique_ptr<Pilot> Pilot::Make(const Scene& scene, const SolverRequest& requ
   return std::unique_ptr<Pilot>(new Pilot(std::move(state), scene, registry));
 }
 
-bool Pilot::is_fixed() const {
-  const auto& options = choice().options;
-  return std::any_of(options.begin(), options.end(), [](const auto& o) { return o.first == "tolerance" && o.second == "0"; });
-}
-
 void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,
                       const AdapterHost& host, PlatformAdapter* adapter, Solver* solver) {
   if (report.step == 1) {  // overlaps of the start
@@ -115,8 +110,8 @@ void Pilot::AfterStep(const StepReport& report, double dt, bool goes_on, const R
   }
   const double growth = watcher_.IsTooDeep(report) ? Largest(ranks, SolverGrowth(*solver, dt), 1e-12) : 0.0;
   const double seconds = Largest(ranks, report.seconds_total, 1e-9);
-  const auto verdict = watcher_.Judge(report, is_fixed(), growth, seconds, goes_on && state_.rung + 1 < state_.choices.size(),
-                                      goes_on && state_.rung > 0);
+  const auto verdict =
+      watcher_.Judge(report, growth, seconds, goes_on && state_.rung + 1 < state_.choices.size(), goes_on && state_.rung > 0);
   if (verdict == Watcher::Verdict::kStay) return;
   state_.rung += verdict == Watcher::Verdict::kClimb ? 1 : std::size_t(-1);
   changed_after_ = report.step;

@@ -26,8 +26,6 @@ class Pilot {
 
   /// Of the rung in use.
   const SolverChoice& choice() const { return state_.choices[state_.rung]; }
-  /// It makes as many iterations as it is given and is not asked to converge.
-  bool is_fixed() const;
   /// After each step of `dt` [s]: exchanges `solver` for one of another rung, with the state of the old one, when it must be
   /// and another step follows (`goes_on`). Collective.
   void AfterStep(const StepReport& report, double dt, bool goes_on, const RankGroup& ranks, const MpiSession& session,

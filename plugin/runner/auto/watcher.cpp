@@ -23,12 +23,9 @@ bool Watcher::IsTooDeep(const StepReport& report) const {
   return !(report.max_interpenetration <= std::max(Target(report), state_.depth + kNegligible * Target(report)));
 }
 
-Watcher::Verdict Watcher::Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above,
-                                bool below) {
+Watcher::Verdict Watcher::Judge(const StepReport& report, double solver_growth, double seconds, bool above, bool below) {
   ++state_.steps;
-  const SolveStatus status = report.solve.status;
-  const bool limit = status == SolveStatus::kIterationLimit && !fixed;
-  const bool failed = limit || status == SolveStatus::kStalled || status == SolveStatus::kDiverged;
+  const bool failed = !IsAsAsked(report.solve.status);
   const bool deep = IsTooDeep(report);
   const bool by_solver = deep && !(solver_growth <= kSolverShare * Target(report));
   state_.not_converged += failed;

@@ -31,9 +31,9 @@ class Watcher {
 
   /// Whether Judge() needs the deepening: the interpenetration is above the wish and has grown in the step.
   bool IsTooDeep(const StepReport& report) const;
-  /// After each step. `fixed`: the rung asks for a number of iterations. `solver_growth` [m]: of the step, read if IsTooDeep().
-  /// `seconds`: of the step, the slowest rank. `above`, `below`: whether there is a rung.
-  Verdict Judge(const StepReport& report, bool fixed, double solver_growth, double seconds, bool above, bool below);
+  /// After each step. `solver_growth` [m]: of the step, read if IsTooDeep(). `seconds`: of the step, the slowest rank. `above`,
+  /// `below`: whether there is a rung.
+  Verdict Judge(const StepReport& report, double solver_growth, double seconds, bool above, bool below);
   /// [m] interpenetration before the first step; deeper overlaps of the start are nobody's fault.
   void SetStart(double depth) { state_.depth = depth; }
 

@@ -146,8 +146,10 @@ void SceneRun::OpenResults() {
   summary_.scene = plan_.scene.name;
   summary_.adapter = plan_.record.adapter;
   summary_.solver = plan_.pilot ? "auto" : plan_.choice.name;
-  summary_.criterion = fmt::format("{} <= {}", OptionValue(plan_.choice, plan_.registry, "criterion"),
-                                   OptionValue(plan_.choice, plan_.registry, "tolerance"));
+  const std::string tolerance = OptionValue(plan_.choice, plan_.registry, "tolerance");
+  summary_.criterion = fmt::format("{} <= {}", OptionValue(plan_.choice, plan_.registry, "criterion"), tolerance);
+  if (std::stod(tolerance) == 0.0)
+    summary_.criterion = fmt::format("none: {} iterations", OptionValue(plan_.choice, plan_.registry, "max_iterations"));
   if (plan_.pilot) summary_.criterion = "of the rung in use";
   summary_.output = folder_->path().string();
   summary_.ranks = ranks_.size();
@@ -191,15 +193,12 @@ SceneRun::Ending SceneRun::Steps() {
     platform_->SetGravity(GravityAt(plan_.scene.gravity, step, dt));
     solver_->Step(dt);
     const StepReport report = solver_->Report();
-    StepRow row = MakeStepRow(report);
-    if (plan_.pilot && plan_.pilot->is_fixed() && report.solve.status == SolveStatus::kIterationLimit)
-      row.status = "incomplete";
+    const StepRow row = MakeStepRow(report);
     folder_->KeepParts();
     csv_->Append(row);
     summary_.Add(row);
     bar.Update(row);
-    const bool good = row.status == "converged" || row.status == "incomplete";
-    const bool stop = !good && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
+    const bool stop = !IsAsAsked(report.solve.status) && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
     if (step == done() + 1) {
       summary_.unknowns_per_contact = report.solve.unknowns_per_contact;
       summary_.unknowns_per_body = report.solve.unknowns_per_body;

@@ -31,7 +31,7 @@ struct Extent {
   double seconds;
 };
 constexpr Extent kFull{100, 20, 5, 600.0}, kQuick{5, 3, 1, 60.0};
-constexpr double kReferenceShare = 0.3;  // of the time limit at most
+constexpr double kScoutShare = 0.2, kReferenceShare = 0.3;  // of the time limit at most
 
 /// Options that say what problem a step is, not how it is solved.
 constexpr const char* kSteppingKeys[] = {"theta",         "normal_law",   "feedback_beta",
@@ -50,6 +50,7 @@ class TradeoffCommand {
     MakeSettings();
     OpenFolder();
     const StopSignal interrupt;
+    Scout(interrupt);
     Record(interrupt);
     if (interrupt.received() == 0) Measure(interrupt);
     Conclude(interrupt.received() != 0);
@@ -60,17 +61,21 @@ class TradeoffCommand {
   void ReadStepping();
   void MakeSettings();
   void OpenFolder();
+  void Scout(const StopSignal& interrupt);
   void Record(const StopSignal& interrupt);
   void Measure(const StopSignal& interrupt);
   void Conclude(bool interrupted);
   void WriteFile(const std::string& name, const std::string& text) const;
   void StoreFront() const;
+  /// [s] since the measurement began: scouting, reference.
+  double SecondsSpent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   ProgressBar::Style BarStyle() const { return ProgressBar::StyleFor(stdout, request_.quiet); }
   void Say(const std::string& line) const {
     if (!request_.quiet) fmt::print("{}\n", line);
   }
 
   const TradeoffRequest& request_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Extent extent_;
   Scene scene_;
   SolverRegistry registry_;
@@ -80,6 +85,7 @@ class TradeoffCommand {
   Accuracy accuracy_ = Accuracy::kNat;
   std::vector<Setting> settings_;
   std::filesystem::path folder_;
+  std::unique_ptr<Course> course_;
   ReferenceRun reference_;
   std::vector<TradeoffRow> rows_;
 };
@@ -163,34 +169,40 @@ void TradeoffCommand::OpenFolder() {
   if (error) throw Error(CannotWrite(folder_, error.value()));
 }
 
+void TradeoffCommand::Scout(const StopSignal& interrupt) {
+  const std::int64_t all = scene_.time.steps;
+  Say(fmt::format("{}: {} of {} steps of {} s on {}, {} settings", scene_.name, plan_.steps, all, scene_.time.dt, plan_.adapter,
+                  settings_.size()));
+  ProgressBar bar(stdout, BarStyle(), all);
+  course_ = std::make_unique<Course>(
+      plan_, kScoutShare * extent_.seconds, [&] { return interrupt.received() != 0; },
+      [&](std::int64_t step) { bar.Update(fmt::format("scouting, step {}", step)); });
+  bar.Finish();
+}
+
 void TradeoffCommand::Record(const StopSignal& interrupt) {
   const Setting setting = ReferenceSetting(registry_, contacts_);
-  Say(fmt::format("{}: {} steps of {} s on {}; reference by {}, {} settings", scene_.name, plan_.steps, scene_.time.dt,
-                  plan_.adapter, setting.name, settings_.size()));
-  ProgressBar bar(stdout, BarStyle(), plan_.steps);
-  const auto start = std::chrono::steady_clock::now();
-  const auto stop = [&] {
-    const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return interrupt.received() != 0 || used > kReferenceShare * extent_.seconds;
-  };
-  reference_ = RecordReference(plan_, setting, stop,
-                               [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); });
+  ProgressBar bar(stdout, BarStyle(), course_->steps());
+  reference_ = RecordReference(
+      plan_, setting, kReferenceShare * extent_.seconds, [&] { return interrupt.received() != 0; },
+      [&](std::int64_t, double nat) { bar.Update(fmt::format("reference  nat {:.1e}", nat)); }, course_.get());
   bar.Finish();
-  const auto done = static_cast<std::int64_t>(reference_.nat.size());
-  Say(fmt::format(
-      "reference: {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} problems recorded",
-      done, reference_.seconds, Median(reference_.nat), Percentile(reference_.nat, 1.0), reference_.not_converged,
-      reference_.steps.size()));
-  if (done < plan_.steps && interrupt.received() == 0) {
-    Say(fmt::format("reference: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps",
-                    done, plan_.steps));
+  Say(
+      fmt::format("reference: by {}, {} steps in {:.1f} s, nat median {:.1e}, largest {:.1e}; {} of them short of 1e-10; {} "
+                  "problems recorded",
+                  setting.name, reference_.nat.size(), reference_.seconds, Median(reference_.nat),
+                  Percentile(reference_.nat, 1.0), reference_.not_converged, reference_.steps.size()));
+  Say("measured: " + course_->Summary());
+  if (course_->steps() < plan_.steps && interrupt.received() == 0) {
+    Say(fmt::format("measured: the time limit leaves room for {} of {} steps; raise --time-limit, or ask for fewer --steps",
+                    course_->steps(), plan_.steps));
   }
 }
 
 void TradeoffCommand::Measure(const StopSignal& interrupt) {
   std::vector<std::unique_ptr<View>> views;
   views.push_back(std::make_unique<ProblemsView>(plan_, reference_));
-  views.push_back(std::make_unique<RunsView>(plan_, reference_));
+  views.push_back(std::make_unique<RunsView>(plan_, reference_, course_.get()));
   TradeoffCsv csv(folder_ / "tradeoff.csv");
   std::unique_ptr<ProgressBar> bar;
   MeasurementEvents events;
@@ -198,7 +210,7 @@ void TradeoffCommand::Measure(const StopSignal& interrupt) {
   events.timed = [&](const std::vector<TradeoffRow>& rows) { csv.Rewrite(rows); };
   events.tick = [&](const std::string& note, bool failed) { bar->Update(note, failed); };
   events.interrupted = [&] { return interrupt.received() != 0; };
-  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - reference_.seconds, events);
+  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - SecondsSpent(), events);
   bar = std::make_unique<ProgressBar>(stdout, BarStyle(), measurement.ticks());
   measurement.Run();
   bar->Finish();
@@ -212,10 +224,11 @@ void TradeoffCommand::WriteFile(const std::string& name, const std::string& text
   if (!stream) throw Error(CannotWrite(folder_ / name, errno));
 }
 
-/// Rows that `solver = "auto"` reads: whole runs of the plugin, one step a step, on the front of the interpenetration.
+/// Rows that `solver = "auto"` reads: runs of the plugin, one step a step, all of which did as asked, on the front of the
+/// interpenetration.
 void TradeoffCommand::StoreFront() const {
   std::vector<TradeoffRow> rows = OfView(rows_, "runs");
-  std::erase_if(rows, [](const TradeoffRow& r) { return r.setting.is_box2d() || r.setting.substeps != 1; });
+  std::erase_if(rows, [](const TradeoffRow& r) { return r.setting.substeps != 1 || !r.is_advisable(); });
   std::string text = TradeoffHeader();
   for (const std::size_t i : ParetoFront(rows, Accuracy::kInterpenetration)) text += TradeoffLine(rows[i]);
   WriteFile(scene_.name + ".front.csv", text);
@@ -234,14 +247,14 @@ void TradeoffCommand::Conclude(bool interrupted) {
   const auto tables = [&](bool all) {
     return "\nThe same problems" + std::string(plan_.cold ? ", from zero impulses" : "") +
            ", time of the solve alone; * front of the velocity error\n" + FormatTable(problems, Accuracy::kVelocityError, all) +
-           fmt::format("\nWhole runs, detection included; * front of {}\n", NameOf(accuracy_)) +
-           FormatTable(runs, accuracy_, all);
+           fmt::format("\nRuns, detection included; * front of {}\n", NameOf(accuracy_)) + FormatTable(runs, accuracy_, all);
   };
   Say(tables(false));
   const std::string box2d = FormatBox2dComparison(runs);
-  const std::string advice = FormatAdvice(runs, {accuracy_, request_.budget}, plan_);
-  if (!box2d.empty()) Say("Beside Box2D's own solver, whole runs\n" + box2d);
-  Say("Settings to paste, whole runs\n" + advice);
+  const std::string advice =
+      fmt::format("# rests on {}\n", course_->Summary()) + FormatAdvice(runs, {accuracy_, request_.budget}, plan_);
+  if (!box2d.empty()) Say("Beside Box2D's own solver, runs\n" + box2d);
+  Say("Settings to paste\n" + advice);
   WriteFile("tradeoff.txt", tables(true) + "\n" + box2d + "\n" + advice);
   StoreFront();
   Say("plot: " + PlotTradeoff(folder_, scene_.name, rows_));

@@ -65,7 +65,7 @@ std::string ProgressBar::Line(const std::string& note, double now) const {
 
 void ProgressBar::Update(const StepRow& row) {
   Update(fmt::format("{} iterations  nat {:.1e}", row.iterations, row.nat),
-         row.status != "converged" && row.status != "incomplete");
+         row.status != "converged" && row.status != "incomplete" && row.status != "fixed");
 }
 
 void ProgressBar::Update(const std::string& note, bool failed) {

@@ -12,8 +12,10 @@
 namespace nscdd {
 namespace {
 
-constexpr std::array kStatusNames = {"converged", "iteration_limit", "stalled", "incomplete", "diverged"};
-constexpr std::size_t kIncomplete = 3;  // what the algorithm promises: no failure, and no convergence
+constexpr std::array kStatusNames = {"converged", "iteration_limit", "stalled", "incomplete", "fixed", "diverged"};
+constexpr std::size_t kIncomplete = 3, kFixed = 4;  // what was asked for: no failure, and no convergence
+
+bool IsFailure(std::size_t status) { return status != 0 && status != kIncomplete && status != kFixed; }
 
 /// Position in kStatusNames; an unknown word counts as diverged, so that it is not taken for success.
 std::size_t StatusIndex(const std::string& status) {
@@ -27,7 +29,7 @@ double WorstOf(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 std::string CountsOf(const RunSummary& summary, std::size_t first_status) {
   std::string text;
   for (std::size_t i = first_status; i < kStatusNames.size(); ++i) {
-    if (summary.status_count[i] == 0 || (first_status > 0 && i == kIncomplete)) continue;
+    if (summary.status_count[i] == 0 || (first_status > 0 && !IsFailure(i))) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", summary.status_count[i], kStatusNames[i]);
   }
   return text;
@@ -117,10 +119,12 @@ std::string Warnings(const RunSummary& s) {
                         first.worst_body_b, first.reason.empty() ? "" : ": " + first.reason);
   }
   if (s.status_count[kIncomplete] > 0) {
-    text += fmt::format(
-        "INCOMPLETE: in {} the subdomains were solved alone, or a fixed number of iterations made (nat up to {:.2e}), as this "
-        "solver does\n",
-        Plural(s.status_count[kIncomplete], "step"), s.max_nat);
+    text += fmt::format("INCOMPLETE: in {} the subdomains were solved alone (nat up to {:.2e}), as this solver does\n",
+                        Plural(s.status_count[kIncomplete], "step"), s.max_nat);
+  }
+  if (s.status_count[kFixed] > 0) {
+    text += fmt::format("FIXED: in {} as many iterations were made as asked for, whatever the residual (nat up to {:.2e})\n",
+                        Plural(s.status_count[kFixed], "step"), s.max_nat);
   }
   if (s.steps_beyond_alert > 0) {
     text += fmt::format(
@@ -148,7 +152,7 @@ void RunSummary::Add(const StepRow& row) {
   time = row.time;
   last = row;
   const std::size_t status = StatusIndex(row.status);
-  if (status != 0 && status != kIncomplete && not_converged() == 0) first_not_converged = row;
+  if (IsFailure(status) && not_converged() == 0) first_not_converged = row;
   ++status_count[status];
   iterations += row.iterations;
   max_iterations = std::max(max_iterations, row.iterations);

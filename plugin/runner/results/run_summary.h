@@ -30,13 +30,13 @@ struct RunSummary {
   /// After each step.
   void Add(const StepRow& row);
 
-  /// Steps whose solve did not converge; incomplete resolutions are not among them.
-  std::int64_t not_converged() const { return status_count[1] + status_count[2] + status_count[4]; }
+  /// Steps whose solve did not converge; incomplete resolutions and fixed numbers of iterations are not among them.
+  std::int64_t not_converged() const { return status_count[1] + status_count[2] + status_count[5]; }
 
   // Filled by Add().
   std::int64_t steps = 0;
   double time = 0.0;                              ///< [s] simulated
-  std::array<std::int64_t, 5> status_count = {};  ///< converged, iteration_limit, stalled, incomplete, diverged
+  std::array<std::int64_t, 6> status_count = {};  ///< converged, iteration_limit, stalled, incomplete, fixed, diverged
   StepRow last;
   StepRow first_not_converged;
   std::int64_t iterations = 0;  ///< sums over the steps, unless they say maximum

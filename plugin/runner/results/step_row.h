@@ -13,7 +13,7 @@ struct StepRow {
   std::int64_t contacts = 0;
   std::int64_t active = 0;
   std::int64_t iterations = 0;
-  std::string status = "converged";  ///< converged, iteration_limit, stalled, incomplete or diverged
+  std::string status = "converged";  ///< NameOf(SolveStatus)
   double nat = 0.0;
   double nat_max = 0.0;
   double qm16 = 0.0;

@@ -17,15 +17,9 @@ namespace {
 constexpr double kHalfEdge = 1e5;
 constexpr double kLargest = 1e18;  // its square is a float, too
 
-/// Box2D's lengths (slop, skin, margin) suit bodies of 0.1 to 10 units. Powers of two change no digit of a float.
-double MetresPerUnit(const Scene& scene) {
-  const double radius = MeanGrainRadius(scene);
-  return radius >= 0.1 && radius <= 10.0 ? 1.0 : std::exp2(std::round(std::log2(radius)));
-}
-
 box2d::Box2dOptions Options(const Scene& scene) {
   box2d::Box2dOptions options;
-  options.metres_per_unit = MetresPerUnit(scene);
+  options.metres_per_unit = Box2dMetresPerUnit(scene);
   if (scene.periodic) {
     options.period = scene.periodic->length;
     options.period_origin = scene.periodic->origin;
@@ -36,7 +30,7 @@ box2d::Box2dOptions Options(const Scene& scene) {
 class Box2dPlatform final : public Platform {
  public:
   explicit Box2dPlatform(const Scene& scene)
-      : metres_per_unit_(MetresPerUnit(scene)), world_(b2Vec2(0.0f, 0.0f)), adapter_(&world_, Options(scene)) {
+      : metres_per_unit_(Box2dMetresPerUnit(scene)), world_(b2Vec2(0.0f, 0.0f)), adapter_(&world_, Options(scene)) {
     world_.SetAllowSleeping(false);
   }
 
@@ -140,6 +134,12 @@ class Box2dPlatform final : public Platform {
 };
 
 }  // namespace
+
+/// Box2D's lengths (slop, skin, margin) suit bodies of 0.1 to 10 units. Powers of two change no digit of a float.
+double Box2dMetresPerUnit(const Scene& scene) {
+  const double radius = MeanGrainRadius(scene);
+  return radius >= 0.1 && radius <= 10.0 ? 1.0 : std::exp2(std::round(std::log2(radius)));
+}
 
 std::unique_ptr<Platform> MakeBox2dPlatform(const Scene& scene) { return std::make_unique<Box2dPlatform>(scene); }
 

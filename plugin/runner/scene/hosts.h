@@ -9,5 +9,7 @@ namespace nscdd {
 
 std::unique_ptr<Platform> MakeReferencePlatform(const Scene& scene);
 std::unique_ptr<Platform> MakeBox2dPlatform(const Scene& scene);
+/// Length of a Box2D unit on that platform [m].
+double Box2dMetresPerUnit(const Scene& scene);
 
 }  // namespace nscdd

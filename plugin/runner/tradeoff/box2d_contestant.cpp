@@ -9,7 +9,9 @@
 #include "nscdd/box2d/box2d_adapter.h"
 #include "nscdd/error.h"
 #include "scene/grain_size.h"
+#include "scene/hosts.h"
 #include "scene/platform.h"
+#include "tradeoff/box2d_surface.h"
 #include "tradeoff/contestant.h"
 
 namespace nscdd {
@@ -22,8 +24,7 @@ namespace {
 /// r_t) does not.
 class ImpulseListener final : public b2ContactListener {
  public:
-  using Shapes =
-      std::unordered_map<const b2Fixture*, std::pair<std::int64_t, std::int32_t>>;  // id of the body, number of the shape
+  using Shapes = std::unordered_map<const b2Fixture*, Box2dSurface::ShapeName>;
   explicit ImpulseListener(Shapes shapes = {}) : shapes_(std::move(shapes)) {}
 
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
@@ -40,19 +41,27 @@ class Box2dContestant final : public Contestant {
   Box2dContestant(const Scene& scene, const Setting& setting, bool continuous);
   ~Box2dContestant() override;
 
-  PlatformAdapter& adapter() override { return platform_->adapter(); }
+  PlatformAdapter& adapter() override { return *surface_; }
   void SetGravity(Vec2 gravity) override { platform_->SetGravity(gravity); }
+  StepProblem Read(const SteppingOptions& stepping, double dt) override {
+    SteppingOptions own = stepping;
+    own.theta = 1.0;
+    return ReadStepProblem(surface_.get(), own, dt);
+  }
   void Step(double dt) override;
   Effort LastEffort() const override;
   void KeepImpulses(bool keep) override;
   const std::map<ContactKey, Vec2>& impulses() override { return listener_.impulses; }
+  Snapshot Capture(std::int64_t step) override { return {step, ReadSortedBodies(surface_.get()), listener_.impulses, {}}; }
+  void Put(const Snapshot& snapshot) override { PutBodies(snapshot.bodies, platform_.get()); }
 
  private:
-  box2d::Box2dAdapter& host();
+  box2d::Box2dAdapter& host() { return dynamic_cast<box2d::Box2dAdapter&>(platform_->adapter()); }
   ImpulseListener::Shapes Shapes();
 
   int velocity_iterations_, position_iterations_;
   std::unique_ptr<Platform> platform_;
+  std::unique_ptr<Box2dSurface> surface_;
   std::vector<std::int64_t> ids_;
   b2World* world_ = nullptr;
   ImpulseListener listener_;
@@ -87,12 +96,16 @@ Box2dContestant::Box2dContestant(const Scene& scene, const Setting& setting, boo
   world_->SetAllowSleeping(false);
   world_->SetWarmStarting(true);
   world_->SetContinuousPhysics(continuous);
-  listener_ = ImpulseListener(Shapes());
+  const ImpulseListener::Shapes shapes = Shapes();
+  std::map<Box2dSurface::ShapeName, double> skins;
+  for (const auto& [fixture, name] : shapes) {
+    if (fixture->GetType() != b2Shape::e_circle) skins[name] = Box2dMetresPerUnit(scene) * fixture->GetShape()->m_radius;
+  }
+  surface_ = std::make_unique<Box2dSurface>(&platform_->adapter(), std::move(skins));
+  listener_ = ImpulseListener(shapes);
 }
 
 Box2dContestant::~Box2dContestant() { world_->SetContactListener(nullptr); }
-
-box2d::Box2dAdapter& Box2dContestant::host() { return dynamic_cast<box2d::Box2dAdapter&>(platform_->adapter()); }
 
 void Box2dContestant::Step(double dt) {
   listener_.impulses.clear();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "nscdd/host/adapter_host.h"
 #include "nscdd/host/solver.h"
 #include "scene/platform.h"
@@ -14,15 +12,17 @@ class PluginContestant final : public Contestant {
   PluginContestant(const Scene& scene, const std::string& adapter, const SolverRegistry& registry, const Setting& setting)
       : platform_(MakePlatform(adapter, scene)),
         host_(&platform_->adapter()),
-        solver_(registry.Create({setting.solver, setting.options, host_.table(), {}})),
-        fixed_(setting.Option("tolerance") == "0") {
+        solver_(registry.Create({setting.solver, setting.options, host_.table(), {}})) {
     ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform_->Add(body); });
   }
 
   PlatformAdapter& adapter() override { return platform_->adapter(); }
   void SetGravity(Vec2 gravity) override { platform_->SetGravity(gravity); }
+  StepProblem Read(const SteppingOptions& stepping, double dt) override {
+    return ReadStepProblem(&platform_->adapter(), stepping, dt);
+  }
   void Step(double dt) override { solver_.Step(dt); }
-  Effort LastEffort() const override { return EffortOf(solver_.Report().solve, fixed_); }
+  Effort LastEffort() const override { return EffortOf(solver_.Report().solve); }
   void KeepImpulses(bool) override {}
 
   const std::map<ContactKey, Vec2>& impulses() override {
@@ -39,35 +39,27 @@ class PluginContestant final : public Contestant {
     return impulses_;
   }
 
+  Snapshot Capture(std::int64_t step) override {
+    return {step, ReadSortedBodies(&platform_->adapter()), impulses(), solver_.SaveState()};
+  }
+
+  void Put(const Snapshot& snapshot) override {
+    PutBodies(snapshot.bodies, platform_.get());
+    if (!snapshot.state.empty()) solver_.LoadState(snapshot.state);
+  }
+
  private:
   std::unique_ptr<Platform> platform_;
   AdapterHost host_;
   Solver solver_;
-  bool fixed_;
   std::map<ContactKey, Vec2> impulses_;
 };
 
 }  // namespace
 
-Effort EffortOf(const SolveReport& report, bool fixed) {
+Effort EffortOf(const SolveReport& report) {
   Effort effort;
-  switch (report.status) {
-    case SolveStatus::kConverged:
-      effort.status = StepStatus::kConverged;
-      break;
-    case SolveStatus::kIterationLimit:
-      effort.status = fixed ? StepStatus::kFixed : StepStatus::kIterationLimit;
-      break;
-    case SolveStatus::kStalled:
-      effort.status = StepStatus::kStalled;
-      break;
-    case SolveStatus::kIncomplete:
-      effort.status = StepStatus::kIncomplete;
-      break;
-    case SolveStatus::kDiverged:
-      effort.status = StepStatus::kDiverged;
-      break;
-  }
+  effort.status = report.status;
   effort.reason = report.reason;
   effort.reported_nat = report.residuals.nat;
   effort.sweeps = report.sweeps;
@@ -76,22 +68,8 @@ Effort EffortOf(const SolveReport& report, bool fixed) {
   return effort;
 }
 
-const char* NameOf(StepStatus status) {
-  switch (status) {
-    case StepStatus::kConverged:
-      return "converged";
-    case StepStatus::kFixed:
-      return "fixed";
-    case StepStatus::kIncomplete:
-      return "incomplete";
-    case StepStatus::kIterationLimit:
-      return "iteration_limit";
-    case StepStatus::kStalled:
-      return "stalled";
-    case StepStatus::kDiverged:
-      break;
-  }
-  return "diverged";
+void PutBodies(const BodyTable& bodies, Platform* platform) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) platform->Restore(bodies.id[i], bodies.pose[i], bodies.velocity[i]);
 }
 
 std::unique_ptr<Contestant> MakePluginContestant(const Scene& scene, const std::string& adapter, const SolverRegistry& registry,

@@ -22,8 +22,7 @@ class ProblemSolver {
   ProblemSolver(const Plan& plan, const Setting& setting, AdapterDescription platform)
       : cold_(plan.cold),
         platform_(std::move(platform)),
-        solver_(plan.registry->Create({setting.solver, plan.Complete(setting).options, nullptr, {}})),
-        fixed_(setting.Option("tolerance") == "0") {}
+        solver_(plan.registry->Create({setting.solver, plan.Complete(setting).options, nullptr, {}})) {}
 
   Outcome Solve(const ReferenceStep& step) {
     const double start = ProcessSeconds();
@@ -32,7 +31,7 @@ class ProblemSolver {
     Outcome outcome;
     const double inside = solver_.Report().seconds_solve;  // the other way round
     outcome.seconds = inside > 0.0 ? std::min(inside, around) : around;
-    outcome.effort = EffortOf(solution.report, fixed_);
+    outcome.effort = EffortOf(solution.report);
     outcome.end.pose =
         Drifted(step.problem.detection, solution.velocity, step.problem.stepping.theta * step.problem.dt, platform_);
     outcome.end.answer = {std::move(solution.velocity), std::move(solution.impulse)};
@@ -43,7 +42,6 @@ class ProblemSolver {
   bool cold_;
   AdapterDescription platform_;
   Solver solver_;
-  bool fixed_;
 };
 
 }  // namespace

@@ -39,10 +39,44 @@ void CheckAgainstReport(double measured, double reported, std::int64_t step) {
       step, measured, reported));
 }
 
+/// The step with this number among those asked for.
 bool IsRecorded(const Plan& plan, std::int64_t step) {
   const std::int64_t stride = std::max<std::int64_t>(1, plan.steps / std::max<std::int64_t>(1, plan.problems));
   return (step - 1) % stride == stride / 2 && (step - 1) / stride < plan.problems;
 }
+
+/// Makes steps and notes them.
+class Recorder {
+ public:
+  Recorder(const Plan& plan, ReferenceRun* run) : plan_(plan), run_(*run) {}
+
+  /// `number`: of the step among those asked for, from 1. `warm`: impulses of the step before. Returns those of this one.
+  std::map<ContactKey, Vec2> Step(std::int64_t step, std::int64_t number, Contestant* contestant,
+                                  const std::map<ContactKey, Vec2>& warm) {
+    const double dt = plan_.scene->time.dt;
+    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt));
+    StepProblem problem = contestant->Read(plan_.stepping, dt);
+    contestant->Step(dt);
+    const Effort effort = contestant->LastEffort();
+    StepEnd end = ReadStepEnd(contestant, problem);
+    const AnswerResiduals residuals = MeasureAnswer(problem.problem, end.answer);
+    CheckAgainstReport(residuals.nat, effort.reported_nat, step);
+    run_.nat.push_back(residuals.nat);
+    run_.nat_max.push_back(residuals.nat_max);
+    run_.not_converged += !IsAsAsked(effort.status);
+    run_.observable.push_back(
+        Evaluate(plan_.observable, problem, end.answer, end.pose, contestant->adapter().Describe().period));
+    if (IsRecorded(plan_, number)) {
+      std::vector<Vec2> first = RowsOf(warm, problem);
+      run_.steps.push_back({step, std::move(problem), std::move(first), std::move(end.answer), run_.observable.back()});
+    }
+    return contestant->impulses();
+  }
+
+ private:
+  const Plan& plan_;
+  ReferenceRun& run_;
+};
 
 }  // namespace
 
@@ -70,36 +104,30 @@ Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts) 
   return known.front();
 }
 
-ReferenceRun RecordReference(const Plan& plan, const Setting& setting, const StopQuestion& stop,
-                             const std::function<void(std::int64_t, double)>& progress) {
+ReferenceRun RecordReference(const Plan& plan, const Setting& setting, double seconds, const StopQuestion& interrupted,
+                             const std::function<void(std::int64_t, double)>& progress, Course* course) {
   const auto start = std::chrono::steady_clock::now();
+  const auto used = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   ReferenceRun run;
   run.setting = setting;
-  const auto contestant = MakePluginContestant(*plan.scene, plan.adapter, *plan.registry, plan.Complete(setting));
-  const double period = contestant->adapter().Describe().period;
-  std::map<ContactKey, Vec2> warm;
-  for (std::int64_t step = 1; step <= plan.steps && (step == 1 || !stop()); ++step) {
-    const double dt = plan.scene->time.dt;
-    contestant->SetGravity(GravityAt(plan.scene->gravity, step, dt));
-    StepProblem problem = ReadStepProblem(&contestant->adapter(), plan.stepping, dt);
-    contestant->Step(dt);
-    const Effort effort = contestant->LastEffort();
-    StepEnd end = ReadStepEnd(contestant.get(), problem);
-    const AnswerResiduals residuals = MeasureAnswer(problem.problem, end.answer);
-    CheckAgainstReport(residuals.nat, effort.reported_nat, step);
-    run.nat.push_back(residuals.nat);
-    run.nat_max.push_back(residuals.nat_max);
-    run.not_converged += effort.status >= StepStatus::kIterationLimit;
-    run.observable.push_back(Evaluate(plan.observable, problem, end.answer, end.pose, period));
-    std::map<ContactKey, Vec2> impulses = contestant->impulses();
-    if (IsRecorded(plan, step)) {
-      std::vector<Vec2> first = RowsOf(warm, problem);
-      run.steps.push_back({step, std::move(problem), std::move(first), std::move(end.answer), run.observable.back()});
+  Recorder recorder(plan, &run);
+  const std::size_t count = course->stretches().size();
+  std::int64_t number = 0;  // of the step among those asked for
+  for (std::size_t k = 0; k < count; ++k) {
+    const Stretch& stretch = course->stretches()[k];
+    const std::int64_t end = number + stretch.count;
+    const double until = seconds * static_cast<double>(k + 1) / static_cast<double>(count);
+    const auto contestant = course->Enter(k, setting);
+    std::map<ContactKey, Vec2> warm = course->StartOf(k).impulses;
+    std::int64_t done = 0;
+    for (; done < stretch.count && (done == 0 || !(interrupted() || used() > until)); ++done) {
+      warm = recorder.Step(stretch.first + done, ++number, contestant.get(), warm);
+      progress(stretch.first + done, run.nat.back());
     }
-    warm = std::move(impulses);
-    progress(step, residuals.nat);
+    course->Cut(k, done);
+    number = end;
   }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.seconds = used();
   return run;
 }
 

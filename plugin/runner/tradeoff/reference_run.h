@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "tradeoff/contestant.h"
-#include "tradeoff/plan.h"
+#include "tradeoff/course.h"
 
 namespace nscdd {
 
@@ -17,11 +16,11 @@ struct ReferenceStep {
   double observable = 0.0;
 };
 
-/// The scene's first steps, solved as exactly as the plugin can, and what they are compared with.
+/// The steps of the course, solved as exactly as the plugin can, and what they are compared with.
 struct ReferenceRun {
   Setting setting;                   ///< that was used
   std::vector<ReferenceStep> steps;  ///< recorded ones
-  std::vector<double> observable;    ///< at the end of every step
+  std::vector<double> observable;    ///< at the end of every step of the course
   std::vector<double> nat;           ///< of every step, as measured here
   std::vector<double> nat_max;
   std::int64_t not_converged = 0;
@@ -31,10 +30,11 @@ struct ReferenceRun {
 /// `newton` where the plugin has it, else `nscd`, accelerated if it can be; `contacts` bounds the iterations.
 Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts);
 
-/// Runs `setting` from the scene's start; fewer steps when `stop` says so (one at least). Throws Error when the residual
-/// measured here is not the one that the solver reports: the problem would not be the one that was solved.
-ReferenceRun RecordReference(const Plan& plan, const Setting& setting, const StopQuestion& stop,
-                             const std::function<void(std::int64_t, double)>& progress);
+/// Runs `setting` along the course. Where it takes longer than `seconds`, every stretch is cut after its share of them (one
+/// step each at least); ends early when interrupted. Throws Error when the residual measured here is not the one that the
+/// solver reports: the problem would not be the one that was solved.
+ReferenceRun RecordReference(const Plan& plan, const Setting& setting, double seconds, const StopQuestion& interrupted,
+                             const std::function<void(std::int64_t, double)>& progress, Course* course);
 
 /// The host's bodies at the end of a step and the impulses by row of the problem's contacts.
 struct StepEnd {

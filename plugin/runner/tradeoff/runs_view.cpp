@@ -6,17 +6,30 @@
 
 namespace nscdd {
 
-std::unique_ptr<Contestant> RunsView::Make(const Setting& setting) const {
-  if (setting.is_box2d()) return MakeBox2dContestant(*plan_.scene, setting);
-  return MakePluginContestant(*plan_.scene, plan_.adapter, *plan_.registry, plan_.Complete(setting));
+bool RunsView::ForEachStep(const Setting& setting, bool keep_impulses, const StopQuestion& stop,
+                           const std::function<void(Contestant* contestant)>& make) {
+  bool is_first = true;
+  for (std::size_t k = 0; k < course_.stretches().size(); ++k) {
+    const Stretch& stretch = course_.stretches()[k];
+    if (!is_first && stop()) return false;
+    const auto contestant = course_.Enter(k, setting);
+    contestant->KeepImpulses(keep_impulses);
+    for (std::int64_t step = stretch.first; step < stretch.first + stretch.count; ++step) {
+      if (!is_first && stop()) return false;
+      is_first = false;
+      contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt));
+      make(contestant.get());
+    }
+  }
+  return true;
 }
 
 /// Returns the seconds of the step, all its substeps together.
-double RunsView::MeasureStep(std::int64_t step, Contestant* contestant, const Setting& setting, RowBuilder* row) const {
+double RunsView::MeasureStep(double reference, Contestant* contestant, const Setting& setting, RowBuilder* row) const {
   const double dt = plan_.scene->time.dt / setting.substeps;
   double seconds = 0.0;
   for (int k = 0; k < setting.substeps; ++k) {
-    const StepProblem problem = ReadStepProblem(&contestant->adapter(), plan_.stepping, dt);
+    const StepProblem problem = contestant->Read(plan_.stepping, dt);
     const double start = ProcessSeconds();
     contestant->Step(dt);
     seconds += ProcessSeconds() - start;
@@ -28,8 +41,7 @@ double RunsView::MeasureStep(std::int64_t step, Contestant* contestant, const Se
     if (k + 1 < setting.substeps) continue;
     const AdapterDescription platform = contestant->adapter().Describe();
     row->AddStep(MeasureInterpenetration(&contestant->adapter(), problem.bodies.id, end.pose, plan_.stepping.alert_distance),
-                 Evaluate(plan_.observable, problem, end.answer, end.pose, platform.period),
-                 reference_.observable.at(static_cast<std::size_t>(step) - 1));
+                 Evaluate(plan_.observable, problem, end.answer, end.pose, platform.period), reference);
   }
   return seconds;
 }
@@ -39,15 +51,10 @@ TradeoffRow RunsView::Measure(const Setting& setting, Timings* timings, const St
   bool cut = false;
   std::string failure;
   timings->Begin();
+  auto reference = reference_.observable.begin();
   try {
-    const auto contestant = Make(setting);
-    contestant->KeepImpulses(true);
-    const auto steps = static_cast<std::int64_t>(reference_.observable.size());
-    for (std::int64_t step = 1; step <= steps; ++step) {
-      if (step > 1 && (cut = stop())) break;
-      contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt));
-      timings->Add(MeasureStep(step, contestant.get(), setting, &row));
-    }
+    cut = !ForEachStep(setting, true, stop,
+                       [&](Contestant* contestant) { timings->Add(MeasureStep(*reference++, contestant, setting, &row)); });
   } catch (const Error& e) {
     failure = e.what();
   }
@@ -55,17 +62,14 @@ TradeoffRow RunsView::Measure(const Setting& setting, Timings* timings, const St
 }
 
 void RunsView::Time(const Setting& setting, Timings* timings, const StopQuestion& stop) {
-  const auto contestant = Make(setting);
   const double dt = plan_.scene->time.dt / setting.substeps;
-  const auto steps = static_cast<std::int64_t>(reference_.observable.size());
   timings->Begin();
-  for (std::int64_t step = 1; step <= steps; ++step) {
-    if (stop()) return timings->DropLast();
-    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt));
+  const bool is_whole = ForEachStep(setting, false, stop, [&](Contestant* contestant) {
     const double start = ProcessSeconds();
     for (int k = 0; k < setting.substeps; ++k) contestant->Step(dt);
     timings->Add(ProcessSeconds() - start);
-  }
+  });
+  if (!is_whole) timings->DropLast();
 }
 
 }  // namespace nscdd

@@ -80,6 +80,16 @@ std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRe
   return known;
 }
 
+std::string GridOf(const Setting& setting, const SolverRegistry& registry) {
+  const std::string own = setting.Option("subdomains");
+  const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
+  if (!own.empty() || solver == nullptr) return own.empty() ? "1x1" : own;
+  for (std::uint64_t i = 0; i < solver->option_count; ++i) {
+    if (solver->options[i].name == std::string("subdomains")) return solver->options[i].default_value;
+  }
+  return "1x1";
+}
+
 std::string SolverSection(const Setting& setting) {
   std::string text = fmt::format("[solver]\nname = \"{}\"\n", setting.solver);
   for (const auto& [key, value] : setting.options) text += fmt::format("{} = {}\n", key, TomlValue(value));

@@ -37,6 +37,9 @@ std::vector<Setting> ReadSettings(const std::filesystem::path& file);
 std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRegistry& registry,
                                    std::vector<std::string>* notices);
 
+/// The subdomains that the setting asks for, or its solver has by default, such as "2x2"; "1x1" where it knows none.
+std::string GridOf(const Setting& setting, const SolverRegistry& registry);
+
 /// The lines of a scene file that choose the setting: [solver], and a remark on [time] if it sub-steps.
 std::string SolverSection(const Setting& setting);
 

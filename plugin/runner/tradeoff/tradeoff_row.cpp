@@ -2,6 +2,7 @@
 #include "tradeoff/tradeoff_row.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -21,6 +22,13 @@ double Worst(const std::vector<double>& values) {
 double MedianOf(std::vector<double> values) {
   for (double& x : values) x = std::isnan(x) ? HUGE_VAL : x;
   return Median(std::move(values));
+}
+
+/// From what was asked for to what is of no use.
+int Badness(SolveStatus status) {
+  constexpr std::array kOrder = {SolveStatus::kConverged,      SolveStatus::kFixed,   SolveStatus::kIncomplete,
+                                 SolveStatus::kIterationLimit, SolveStatus::kStalled, SolveStatus::kDiverged};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), status) - kOrder.begin());
 }
 
 }  // namespace
@@ -68,8 +76,8 @@ void RowBuilder::AddSolve(const StepMeasurement& m) {
   row_.sweeps += static_cast<double>(m.effort.sweeps);
   row_.exchanges += static_cast<double>(m.effort.exchanges);
   row_.exchange_bytes += static_cast<double>(m.effort.exchange_bytes);
-  if (m.effort.status >= StepStatus::kIterationLimit) ++row_.not_converged;
-  if (solves_ > 1.0 && m.effort.status <= worst_) return;
+  if (!IsAsAsked(m.effort.status)) ++row_.not_converged;
+  if (solves_ > 1.0 && Badness(m.effort.status) <= Badness(worst_)) return;
   worst_ = m.effort.status;
   row_.reason = m.effort.reason;
 }

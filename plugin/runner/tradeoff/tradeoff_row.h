@@ -15,7 +15,7 @@ namespace nscdd {
 struct TradeoffRow {
   std::string view;  ///< "problems" or "runs"
   Setting setting;
-  std::string status;      ///< of the worst step: NameOf(StepStatus), "failed" or, when it took too long for the whole, "cut"
+  std::string status;      ///< of the worst step: NameOf(SolveStatus), "failed" or, when it took too long for the whole, "cut"
   std::string reason;      ///< one clause, of the worst step
   std::int64_t steps = 0;  ///< measured
   std::int64_t not_converged = 0;  ///< of them: iteration limit, stalled or diverged
@@ -44,6 +44,8 @@ struct TradeoffRow {
 
   /// Whether its numbers mean something: it ran to the end and did not diverge.
   bool is_sound() const { return status != "failed" && status != "cut" && status != "diverged"; }
+  /// Whether to propose it: a solver of the plugin that did in every step what it was asked for.
+  bool is_advisable() const { return is_sound() && not_converged == 0 && !setting.is_box2d(); }
 };
 
 /// Seconds of every step in every repetition.
@@ -83,7 +85,7 @@ class RowBuilder {
  private:
   TradeoffRow row_;
   double radius_;
-  StepStatus worst_ = StepStatus::kConverged;
+  SolveStatus worst_ = SolveStatus::kConverged;
   double solves_ = 0.0;
   std::vector<double> nat_, nat_max_, velocity_error_, momentum_;
 };

@@ -28,7 +28,7 @@ std::string FormatTable(const std::vector<TradeoffRow>& rows, Accuracy accuracy,
 std::string FormatBox2dComparison(const std::vector<TradeoffRow>& rows);
 
 /// The cheapest setting for each decade of the accuracy and the best one within the budget, each as a [solver] section that a
-/// scene file takes. Rows of one view; Box2D's are never proposed. `plan` adds the options that all settings share.
+/// scene file takes. Rows of one view; only advisable ones are proposed. `plan` adds the options that all settings share.
 std::string FormatAdvice(const std::vector<TradeoffRow>& rows, const Wish& wish, const Plan& plan);
 
 }  // namespace nscdd

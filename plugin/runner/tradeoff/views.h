@@ -37,22 +37,26 @@ class ProblemsView final : public View {
   std::unique_ptr<Platform> geometry_;  ///< the scene's bodies: finds the contacts at any poses
 };
 
-/// Each setting runs the scene from its start on its own trajectory. Timed: whole steps, detection included, CPU time of the
-/// process.
+/// Each setting runs the stretches of the course, each on its own trajectory from the same start. Timed: whole steps, detection
+/// included, CPU time of the process.
 class RunsView final : public View {
  public:
-  RunsView(const Plan& plan, const ReferenceRun& reference) : plan_(plan), reference_(reference) {}
+  RunsView(const Plan& plan, const ReferenceRun& reference, Course* course)
+      : plan_(plan), reference_(reference), course_(*course) {}
   const char* name() const override { return "runs"; }
   bool Takes(const Setting&) const override { return true; }
   TradeoffRow Measure(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
   void Time(const Setting& setting, Timings* timings, const StopQuestion& stop) override;
 
  private:
-  std::unique_ptr<Contestant> Make(const Setting& setting) const;
-  double MeasureStep(std::int64_t step, Contestant* contestant, const Setting& setting, RowBuilder* row) const;
+  /// `make` for every step of the course, in order, with a contestant that stands before it; false: `stop` ended it.
+  bool ForEachStep(const Setting& setting, bool keep_impulses, const StopQuestion& stop,
+                   const std::function<void(Contestant* contestant)>& make);
+  double MeasureStep(double reference, Contestant* contestant, const Setting& setting, RowBuilder* row) const;
 
   const Plan& plan_;
   const ReferenceRun& reference_;
+  Course& course_;
 };
 
 }  // namespace nscdd
