@@ -157,7 +157,7 @@ BodySource ReadDiskFile(TableReader* entry, const Scene& scene, Notes* notes) {
   if (!depth.IsPlane()) {
     entry->Refuse("file",
                   fmt::format("names {}, whose spheres are no plane of disks: z goes from {} to {} m; keep the rows of one "
-                              "layer, call the column y if that is the plane, or remove it to put all into one plane",
+                              "layer, or give just the plane's two coordinates, as x and y",
                               file.path.string(), depth.lowest, depth.highest));
   }
   file.has_ids = reader.has_ids();
