@@ -22,7 +22,7 @@ class Run(ProgramTest):
         steps = read_csv(out / "steps.csv")
         self.assertEqual([s["step"] for s in steps], ["1", "2", "3"])
         final = read_csv(out / "final.csv")
-        self.assertEqual(list(final[0]), ["id", "x", "y", "angle", "vx", "vy", "spin"])
+        self.assertEqual(list(final[0]), ["id", "x", "y", "angle", "vx", "vy", "spin", "radius", "kind"])
         self.assertEqual([int(b["id"]) for b in final], [0, 1, 2])
         self.assertAlmostEqual(float(final[2]["y"]), 3.0, places=6)
 

@@ -133,17 +133,21 @@ TEST(StepsCsv, RowsOfAnotherProgramAreNamed) {
   EXPECT_NE(refusal(""), "");
 }
 
+std::string_view AllDisks(std::int64_t) { return {}; }
+
 TEST(FinalCsv, SortedWithSeventeenDigits) {
   const TemporaryFolder folder;
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
-  WriteFinalCsv(&results, SampleGrains());
+  GrainTable grains = SampleGrains();
+  grains.radius[1] = 0.1;
+  WriteFinalCsv(&results, grains, [](std::int64_t id) { return id == 9 ? "cluster" : ""; });
   results.Finish();
   EXPECT_EQ(TextOf(folder.path() / "final.csv"),
-            "id,x,y,angle,vx,vy,spin\n"
-            "7,1,1,0.20000000000000001,0.33333333333333331,0.5,0\n"
-            "9,3,1,-0.29999999999999999,-2,0,-0\n"
-            "30,5,1,0.10000000000000001,0,0,1e-300\n"
-            "40,3,0,0,0,0,0\n");
+            "id,x,y,angle,vx,vy,spin,radius,kind\n"
+            "7,1,1,0.20000000000000001,0.33333333333333331,0.5,0,0.10000000000000001,free\n"
+            "9,3,1,-0.29999999999999999,-2,0,-0,1,cluster\n"
+            "30,5,1,0.10000000000000001,0,0,1e-300,1,free\n"
+            "40,3,0,0,0,0,0,0.5,prescribed\n");
 }
 
 TEST(FinalCsv, ChunksGiveTheSameFile) {
@@ -156,7 +160,7 @@ TEST(FinalCsv, ChunksGiveTheSameFile) {
   }
   const auto text_with = [&](int rows_at_a_time) {
     ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
-    WriteFinalCsv(&results, grains, rows_at_a_time);
+    WriteFinalCsv(&results, grains, AllDisks, rows_at_a_time);
     results.Finish();
     return TextOf(folder.path() / "final.csv");
   };
@@ -172,15 +176,15 @@ TEST(FinalCsv, IdsThatComeTwiceAreRefused) {
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
   GrainTable grains = SampleGrains();
   grains.id[3] = 9;
-  EXPECT_NE(SentenceOf([&] { WriteFinalCsv(&results, grains); }).find("two bodies have the id 9"), std::string::npos);
+  EXPECT_NE(SentenceOf([&] { WriteFinalCsv(&results, grains, AllDisks); }).find("two bodies have the id 9"), std::string::npos);
 }
 
 TEST(FinalCsv, NoBodies) {
   const TemporaryFolder folder;
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
-  WriteFinalCsv(&results, {});
+  WriteFinalCsv(&results, {}, AllDisks);
   results.Finish();
-  EXPECT_EQ(TextOf(folder.path() / "final.csv"), "id,x,y,angle,vx,vy,spin\n");
+  EXPECT_EQ(TextOf(folder.path() / "final.csv"), "id,x,y,angle,vx,vy,spin,radius,kind\n");
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(SceneBodies, CsvColumnsAndSourceKeysArrive) {
   EXPECT_EQ(body.velocity.spin, 4.0);
   EXPECT_EQ(body.disks.at(0).radius, 0.5);
   EXPECT_DOUBLE_EQ(body.mass, 2.0 * std::numbers::pi * 0.25);
-  EXPECT_EQ(bodies.at(9).id, 9) << "bodies without an id are numbered by their place";
+  EXPECT_EQ(bodies.at(9).id, 6) << "bodies without an id take those that are free, in their order";
 }
 
 TEST(SceneBodies, AFileThatShrankIsNoticed) {

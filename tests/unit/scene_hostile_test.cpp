@@ -78,7 +78,7 @@ TEST(Hostile, TextsWithControls) {
 }
 
 TEST(Hostile, NamesOfFiles) {
-  for (const char* name : {"/etc/passwd", "../disks.csv", "a/../../disks.csv", "..", ".", "a/..", "/dev/zero", "disks.csv/"}) {
+  for (const char* name : {"/no/such", "../disks.csv", "a/../../disks.csv", "..", ".", "a/..", "/dev/zero", "disks.csv/"}) {
     ExpectIn("disks[1].file", SceneRefusal(kTime + "[[disks]]\nfile = \"" + name + "\"\n", "x,y,radius\n1,2,3\n"));
   }
   for (const char* name : {"/tmp", "../out", "a/../b"}) {

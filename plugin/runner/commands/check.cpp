@@ -61,7 +61,6 @@ void Check(const std::filesystem::path& path, const std::string& adapter, const 
   registry.Add(FindPlugin(request.plugin));
   const auto pilot = Pilot::Make(scene, request, registry, 1);
   const SolverChoice choice = pilot ? pilot->choice() : ChooseSolver(scene, request, registry);
-  CheckIds(scene);
   const std::string name = adapter.empty() ? scene.adapter : adapter;
   const auto platform = MakePlatform(name, scene);
   ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });

@@ -50,7 +50,6 @@ Exported FromScene(const ExportRequest& request) {
   SolverRegistry registry;
   registry.Add(FindPlugin(request.solver.plugin));
   const SolverChoice choice = ChooseSolver(scene, request.solver, registry);
-  CheckIds(scene);
   const auto platform = MakePlatform(request.adapter.empty() ? scene.adapter : request.adapter, scene);
   ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
   StepRecorder recorder(&platform->adapter());

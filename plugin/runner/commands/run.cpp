@@ -21,6 +21,7 @@
 #include "results/run_summary.h"
 #include "results/steps_csv.h"
 #include "run_results.h"
+#include "scene/body_roles.h"
 #include "scene/packing.h"
 #include "scene/platform.h"
 
@@ -42,7 +43,6 @@ class SceneRun {
       ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
     }
     if (ranks_.is_root() && !request_.quiet) PrintNotes(plan_.scene.notes);
-    ranks_.RunOnRoot([&] { CheckIds(plan_.scene); });
     ranks_.RunTogether([&] {
       platform_ = MakePlatform(plan_.record.adapter, plan_.scene);
       AddBodies();
@@ -234,7 +234,8 @@ void SceneRun::NoteDeepOverlaps(double mean_radius) {
 void SceneRun::CloseResults() {
   file_->Close();
   csv_->Close();
-  WriteFinalCsv(folder_.get(), MakeGrainTable(*solver_));
+  const BodyRoles roles(plan_.scene);
+  WriteFinalCsv(folder_.get(), MakeGrainTable(*solver_), [&](std::int64_t id) { return roles.Of(id); });
   if (!plan_.scene.output.packing.empty()) {
     ranks_.RunOnRoot(
         [&] { WritePacking(plan_.scene, folder_->Stage("final.csv"), folder_->Stage(plan_.scene.output.packing)); });

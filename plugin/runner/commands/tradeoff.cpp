@@ -92,7 +92,6 @@ class TradeoffCommand {
 
 void TradeoffCommand::Prepare() {
   scene_ = ReadSceneFile(request_.scene);
-  CheckIds(scene_);
   registry_.Add(FindPlugin(request_.solver.plugin));
   // A scene for solver "auto" has no setting of its own yet: its front is what is measured here.
   SolverRequest own = request_.solver;

@@ -20,7 +20,8 @@ namespace {
 
 struct Row {
   std::int64_t id;
-  std::array<double, 6> values;  ///< x, y, angle, vx, vy, spin
+  std::array<double, 7> values;  ///< x, y, angle, vx, vy, spin, radius
+  std::int64_t kind;             ///< BodyKind; as wide as the rest, so that no byte is undefined
 };
 
 /// Positions of the rows by ascending id.
@@ -47,8 +48,10 @@ class RowQueue {
     std::vector<std::byte> bytes;
     for (; next_ < order_.size() && grains_.id[order_[next_]] <= bound; ++next_) {
       const std::size_t i = order_[next_];
-      const Row row{grains_.id[i],
-                    {grains_.x[i], grains_.y[i], grains_.angle[i], grains_.vx[i], grains_.vy[i], grains_.spin[i]}};
+      const Row row{
+          grains_.id[i],
+          {grains_.x[i], grains_.y[i], grains_.angle[i], grains_.vx[i], grains_.vy[i], grains_.spin[i], grains_.radius[i]},
+          grains_.kind[i]};
       const std::size_t end = bytes.size();
       bytes.resize(end + sizeof row);
       std::memcpy(bytes.data() + end, &row, sizeof row);
@@ -63,7 +66,7 @@ class RowQueue {
 };
 
 /// Appends rows to the file in order of id; ids of later calls are larger. Remembers the last one, to see it come twice.
-void WriteRows(const std::vector<std::byte>& bytes, std::int64_t* last_id, StagedFile* file) {
+void WriteRows(const std::vector<std::byte>& bytes, const RoleOfBody& role, std::int64_t* last_id, StagedFile* file) {
   std::vector<Row> rows(bytes.size() / sizeof(Row));
   if (!rows.empty()) std::memcpy(rows.data(), bytes.data(), bytes.size());
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
@@ -75,19 +78,21 @@ void WriteRows(const std::vector<std::byte>& bytes, std::int64_t* last_id, Stage
     *last_id = row.id;
     fmt::format_to(std::back_inserter(text), "{}", row.id);
     for (const double value : row.values) fmt::format_to(std::back_inserter(text), ",{:.17g}", value);
-    text.push_back('\n');
+    const std::string_view role_name = role(row.id);
+    const std::string_view kind = row.kind == 0 ? "free" : "prescribed";
+    fmt::format_to(std::back_inserter(text), ",{}\n", role_name.empty() ? kind : role_name);
   }
   file->Write({text.data(), text.size()});
 }
 
 }  // namespace
 
-void WriteFinalCsv(ResultsFolder* folder, const GrainTable& grains, int rows_at_a_time) {
+void WriteFinalCsv(ResultsFolder* folder, const GrainTable& grains, const RoleOfBody& role, int rows_at_a_time) {
   const RankGroup& ranks = folder->ranks();
   std::unique_ptr<StagedFile> file;
   ranks.RunOnRoot([&] {
     file = std::make_unique<StagedFile>(folder->Stage("final.csv"));
-    file->Write("id,x,y,angle,vx,vy,spin\n");
+    file->Write("id,x,y,angle,vx,vy,spin,radius,kind\n");
   });
   // In each round every rank sends what it has up to an id that the ranks agree on, so rounds follow each other in order of id,
   // whatever the ids are and wherever the bodies live.
@@ -98,7 +103,7 @@ void WriteFinalCsv(ResultsFolder* folder, const GrainTable& grains, int rows_at_
   do {
     bound = ranks.Min(queue.BoundFor(share));
     const std::vector<std::byte> rows = ranks.GatherOnRoot(queue.Take(bound));
-    ranks.RunOnRoot([&] { WriteRows(rows, &last_id, file.get()); });
+    ranks.RunOnRoot([&] { WriteRows(rows, role, &last_id, file.get()); });
   } while (bound != std::numeric_limits<std::int64_t>::max());
   ranks.RunOnRoot([&] { file->Close(); });
 }

@@ -18,7 +18,7 @@ struct RunIdentity {
   std::string scene_hash;  ///< HashOfFile() of it
   std::string version;     ///< of the program
   std::vector<std::pair<std::string, std::string>> settings;  ///< what the run was asked for, in this order
-  std::vector<std::string> notes;                             ///< sentences on its input
+  std::vector<std::string> notes = {};                        ///< sentences on its input
 };
 
 /// FNV-1a of the file's bytes, 16 hexadecimal digits. Throws Error if it cannot be read.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kMostBodiesOfARank = 20'000'000;  // some 20 GB on Box2D
 
-/// Makes the bodies [first, last) of one source; `number` is that of the source's first body in the scene.
+/// Makes the bodies [first, last) of one source; `number` bodies before them take free ids.
 class SourceVisitor {
  public:
   SourceVisitor(const Scene& scene, const BodySource& source, std::int64_t number, std::int64_t first, std::int64_t last,
@@ -25,20 +25,20 @@ class SourceVisitor {
       : scene_(scene), source_(source), number_(number), first_(first), last_(last), visit_(visit) {}
 
   void operator()(const SingleDisk& disk) const {
-    BodyDefinition body = MakeDisk({{disk.pose.x, disk.pose.y}, disk.radius}, source_.material);
+    BodyDefinition body = MakeDisk({{disk.pose.x, disk.pose.y}, disk.radius});
     body.pose.angle = disk.pose.angle;
     Give(0, std::move(body));
   }
 
   void operator()(const Lattice& lattice) const {
-    for (std::int64_t i = first_; i < last_; ++i) Give(i, MakeDisk(LatticeDisk(lattice, i), source_.material));
+    for (std::int64_t i = first_; i < last_; ++i) Give(i, MakeDisk(LatticeDisk(lattice, i)));
   }
 
   void operator()(const Deposition& deposition) const {
     DepositionGenerator generator(deposition);
     for (std::int64_t i = 0; i < last_; ++i) {
       const reference::Disk disk = generator.Next();
-      if (i >= first_) Give(i, MakeDisk(disk, source_.material));
+      if (i >= first_) Give(i, MakeDisk(disk));
     }
   }
 
@@ -52,11 +52,11 @@ class SourceVisitor {
       row.velocity = source_.velocity;
       if (!reader.Next(&row)) RefuseChange(file);
       const std::string where = fmt::format("{}:{}:", file.path.string(), row.line);
-      BodyDefinition body = MakeDisk({{row.pose.x, row.pose.y}, row.radius},
-                                     row.material.empty() ? source_.material : FindMaterial(scene_, row.material, where));
+      const int material = row.material.empty() ? source_.material : FindMaterial(scene_, row.material, where);
+      BodyDefinition body = MakeDisk({{row.pose.x, row.pose.y}, row.radius}, material, row.kind.value_or(source_.kind));
       body.pose.angle = row.pose.angle;
       body.velocity = row.velocity;
-      body.id = row.id.value_or(number_ + i);
+      body.id = row.id ? *row.id : scene_.free_ids.At(number_ + i);
       visit_(body);
     }
   }
@@ -88,19 +88,23 @@ class SourceVisitor {
  private:
   const Material& material(int index) const { return scene_.materials[static_cast<std::size_t>(index)]; }
 
-  void Finish(int material_index, BodyDefinition* body) const {
-    body->kind = source_.kind;
+  void Finish(int material_index, BodyDefinition* body) const { Finish(material_index, source_.kind, body); }
+
+  void Finish(int material_index, BodyKind kind, BodyDefinition* body) const {
+    body->kind = kind;
     body->friction = material(material_index).friction;
     body->restitution = material(material_index).restitution;
     body->velocity = source_.velocity;
-    if (source_.kind == BodyKind::kPrescribed) body->mass = body->inertia = 0.0;
+    if (kind == BodyKind::kPrescribed) body->mass = body->inertia = 0.0;
   }
 
-  BodyDefinition MakeDisk(const reference::Disk& disk, int material_index) const {
+  BodyDefinition MakeDisk(const reference::Disk& disk, int material_index, BodyKind kind) const {
     BodyDefinition body = reference::MakeDisk(0, disk.centre, disk.radius, material(material_index).density);
-    Finish(material_index, &body);
+    Finish(material_index, kind, &body);
     return body;
   }
+
+  BodyDefinition MakeDisk(const reference::Disk& disk) const { return MakeDisk(disk, source_.material, source_.kind); }
 
   static void CopyShapes(const Wall& wall, BodyDefinition* body) {
     const Vec2 origin = wall.centre;
@@ -112,7 +116,7 @@ class SourceVisitor {
   }
 
   void Give(std::int64_t index, BodyDefinition body) const {
-    body.id = source_.id.value_or(number_ + index);
+    body.id = source_.id ? *source_.id : scene_.free_ids.At(number_ + index);
     visit_(body);
   }
 
@@ -137,7 +141,7 @@ std::int64_t FirstNumber(std::int64_t count, int rank, int ranks) {
 struct OwnId {
   std::int64_t id;
   std::int32_t source;
-  std::int32_t line;  ///< of the CSV file, or 0
+  std::int32_t line;  ///< of the table, or 0
 };
 
 void CollectIds(const BodySource& source, std::int32_t index, std::vector<OwnId>* ids) {
@@ -154,33 +158,17 @@ std::string Place(const Scene& scene, const OwnId& id) {
   return fmt::format("{}:{}:", std::get<DiskFile>(source.what).path.string(), id.line);
 }
 
-bool NumbersItself(const BodySource& source) {
-  const auto* file = std::get_if<DiskFile>(&source.what);
-  return !source.id && !(file != nullptr && file->has_ids);
-}
-
-/// Refuses an id that is the number of a body without one.
-void CheckAgainstNumbers(const Scene& scene, const std::vector<OwnId>& sorted) {
-  std::int64_t number = 0;
-  for (const BodySource& source : scene.bodies) {
-    const auto found = std::lower_bound(sorted.begin(), sorted.end(), number,
-                                        [](const OwnId& id, std::int64_t first) { return id.id < first; });
-    if (NumbersItself(source) && found != sorted.end() && found->id < number + source.count) {
-      throw Error(
-          fmt::format("{} {} is the number of a body of '{}' (line {}), which has no id and is numbered by its place in the "
-                      "scene, walls first; give ids from {} up.",
-                      Place(scene, *found), found->id, source.key, source.line, CountBodies(scene)));
-    }
-    number += source.count;
-  }
-}
-
 }  // namespace
 
 std::int64_t CountBodies(const Scene& scene) {
   std::int64_t count = 0;
   for (const BodySource& source : scene.bodies) count += source.count;
   return count;
+}
+
+bool TakesFreeIds(const BodySource& source) {
+  const auto* file = std::get_if<DiskFile>(&source.what);
+  return !source.id && !(file != nullptr && file->has_ids);
 }
 
 void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit) {
@@ -191,26 +179,34 @@ void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<vo
         fmt::format("{}: makes {} bodies, {} on one process; at most {} are possible there: give fewer, or start more ranks.",
                     scene.file.string(), count, end - begin, kMostBodiesOfARank));
   }
-  std::int64_t number = 0;
+  std::int64_t place = 0, number = 0;
   for (const BodySource& source : scene.bodies) {
-    const std::int64_t first = std::max<std::int64_t>(begin - number, 0);
-    const std::int64_t last = std::min(end - number, source.count);
+    const std::int64_t first = std::max<std::int64_t>(begin - place, 0);
+    const std::int64_t last = std::min(end - place, source.count);
     if (first < last) std::visit(SourceVisitor(scene, source, number, first, last, visit), source.what);
-    number += source.count;
+    place += source.count;
+    if (TakesFreeIds(source)) number += source.count;
   }
 }
 
-void CheckIds(const Scene& scene) {
-  std::vector<OwnId> ids;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) CollectIds(scene.bodies[i], static_cast<std::int32_t>(i), &ids);
-  std::sort(ids.begin(), ids.end(),
+FreeIds FindFreeIds(const Scene& scene) {
+  std::vector<OwnId> own;
+  std::int64_t needed = 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    CollectIds(scene.bodies[i], static_cast<std::int32_t>(i), &own);
+    if (TakesFreeIds(scene.bodies[i])) needed += scene.bodies[i].count;
+  }
+  std::sort(own.begin(), own.end(),
             [](const OwnId& a, const OwnId& b) { return std::tie(a.id, a.source, a.line) < std::tie(b.id, b.source, b.line); });
-  const auto twin = std::adjacent_find(ids.begin(), ids.end(), [](const OwnId& a, const OwnId& b) { return a.id == b.id; });
-  if (twin != ids.end()) {
-    throw Error(fmt::format("{} {} is a duplicate: the first body of this id is at {}; give each body its own.",
+  const auto twin = std::adjacent_find(own.begin(), own.end(), [](const OwnId& a, const OwnId& b) { return a.id == b.id; });
+  if (twin != own.end()) {
+    throw Error(fmt::format("{} {} is a duplicate: the first body of this id is at {}; give each body its own, or none.",
                             Place(scene, twin[1]), twin->id, Place(scene, *twin)));
   }
-  CheckAgainstNumbers(scene, ids);
+  std::vector<std::int64_t> taken;
+  taken.reserve(own.size());
+  for (const OwnId& id : own) taken.push_back(id.id);
+  return {taken, needed};
 }
 
 }  // namespace nscdd

@@ -15,12 +15,15 @@ using BodyDefinition = reference::Body;
 /// Bodies of the scene, walls included.
 std::int64_t CountBodies(const Scene& scene);
 
+/// Do its bodies have no id of their own? They take free ones, in the order of the scene.
+bool TakesFreeIds(const BodySource& source);
+
 /// Calls `visit` for the bodies of this rank in the order of the scene: number k of n goes to rank floor(k ranks / n). Holds
-/// one body at a time (and the surface of a deposition). Throws Error when a CSV file has changed since the scene was read.
+/// one body at a time (and the surface of a deposition). Throws Error when a table has changed since the scene was read.
 void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit);
 
-/// Throws Error, naming both places, if two bodies have the same id. Needs 16 bytes per body with an id of its own, for the
-/// duration of the call.
-void CheckIds(const Scene& scene);
+/// The ids that are left for bodies without one. Reads the tables that have ids; needs 16 bytes per body with an id of its own,
+/// for the duration of the call. Throws Error, naming both places, if two bodies have the same.
+FreeIds FindFreeIds(const Scene& scene);
 
 }  // namespace nscdd

@@ -105,7 +105,8 @@ void DiskFileReader::ConsiderComment(std::string_view text) {
 }
 
 void DiskFileReader::ReadHead() {
-  if (!NextLine()) Refuse("the file has no line with names or numbers; its first line must name the columns, such as x,y,radius");
+  if (!NextLine())
+    Refuse("the file has no line with names or numbers; its first line must name the columns, such as x,y,radius");
   separator_ = FindSeparator(line_.data());
   SplitFields();
   const auto is_number = [](std::string_view field) { return CsvNumber(field).has_value(); };
@@ -136,8 +137,10 @@ void DiskFileReader::TakeRowWithoutHeader() {
   columns_ = ColumnsByPosition(fields_.size());
   if (!columns_.fault.empty()) Refuse(columns_.fault);
   if (separator_ == Separator::kComma && fields_.size() > 3) {
-    Refuse("numbers between commas and no names of columns, where some commas may be decimal marks; write the names above, such as "
-           "x,y,z,radius");
+    Refuse(
+        "numbers between commas and no names of columns, where some commas may be decimal marks; write the names above, such "
+        "as "
+        "x,y,z,radius");
   }
 }
 
@@ -150,12 +153,13 @@ bool DiskFileReader::NextDisk() {
   while (NextLine()) {
     SplitFields();
     if (fields_.size() != columns_.meaning.size()) {
-      Refuse(fmt::format(
-          "{} fields where the {} {} columns; give one value per column{}", fields_.size(), named_ ? "header names" : "first row has",
-          columns_.meaning.size(), separator_ == Separator::kComma ? ", with decimal points if commas separate them" : ""));
+      Refuse(fmt::format("{} fields where the {} {} columns; give one value per column{}", fields_.size(),
+                         named_ ? "header names" : "first row has", columns_.meaning.size(),
+                         separator_ == Separator::kComma ? ", with decimal points if commas separate them" : ""));
     }
     const auto kind = std::find(columns_.meaning.begin(), columns_.meaning.end(), DiskColumn::kKind);
-    if (kind == columns_.meaning.end() || !IsLeftOut(fields_[static_cast<std::size_t>(kind - columns_.meaning.begin())])) return true;
+    if (kind == columns_.meaning.end() || !IsLeftOut(fields_[static_cast<std::size_t>(kind - columns_.meaning.begin())]))
+      return true;
     ++left_out_;
   }
   return false;
@@ -181,7 +185,8 @@ void DiskFileReader::ReadField(DiskColumn column, std::string_view field, DiskRo
       return ReadKind(field, row);
     case DiskColumn::kId:
       row->id = CsvId(field);
-      if (!row->id) Refuse(fmt::format("id '{}' is not an integer >= 0; give each disk its own, or leave the column out", field));
+      if (!row->id)
+        Refuse(fmt::format("id '{}' is not an integer >= 0; give each disk its own, or leave the column out", field));
       return;
     default:
       *Target(column, row) = ReadNumber(column, field) * (column == DiskColumn::kDiameter ? 0.5 : 1.0);
@@ -229,8 +234,9 @@ std::vector<std::string> DiskFileReader::Remarks() const {
   }
   if (left_out_ > 0) {
     const bool one = left_out_ == 1;
-    remarks.push_back(Sentence(fmt::format("{}: {} wall{} or cluster{} left out, as a table holds disks; the scene has to give them",
-                                           file, left_out_, one ? "" : "s", one ? " is" : "s are")));
+    remarks.push_back(
+        Sentence(fmt::format("{}: {} wall{} or cluster{} left out, as a table holds disks; the scene has to give them", file,
+                             left_out_, one ? "" : "s", one ? " is" : "s are")));
   }
   return remarks;
 }

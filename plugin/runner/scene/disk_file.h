@@ -61,11 +61,11 @@ class DiskFileReader {
   std::ifstream stream_;
   DiskColumns columns_;  ///< empty until the head is read
   Separator separator_ = Separator::kComma;
-  bool named_ = true;            ///< the table says what its columns are
-  std::string comment_;          ///< the last one above the rows that names x, y and a radius, as it stands
-  bool held_ = false;            ///< line_ is a row that was seen but not taken
-  char decimal_mark_ = '\0';     ///< of the numbers so far, once one of them had one
-  std::int64_t left_out_ = 0;    ///< rows that are no disks
+  bool named_ = true;          ///< the table says what its columns are
+  std::string comment_;        ///< the last one above the rows that names x, y and a radius, as it stands
+  bool held_ = false;          ///< line_ is a row that was seen but not taken
+  char decimal_mark_ = '\0';   ///< of the numbers so far, once one of them had one
+  std::int64_t left_out_ = 0;  ///< rows that are no disks
   std::array<char, 4098> line_{};
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> fields_;  ///< of line_

@@ -14,7 +14,7 @@ struct SourceSum {
   double bodies;
 
   Sum operator()(const SingleDisk& disk) const { return {1.0, disk.radius}; }
-  Sum operator()(const DiskFile& file) const { return {bodies, bodies * file.mean_radius}; }
+  Sum operator()(const DiskFile& file) const { return {static_cast<double>(file.free), file.free_radii}; }
   Sum operator()(const Lattice& lattice) const { return {bodies, bodies * 0.5 * (lattice.min_radius + lattice.max_radius)}; }
   Sum operator()(const Deposition& bed) const { return {bodies, bodies * 0.5 * (bed.min_radius + bed.max_radius)}; }
   Sum operator()(const Cluster& cluster) const {
@@ -30,7 +30,7 @@ struct SourceSum {
 double MeanGrainRadius(const Scene& scene) {
   Sum total;
   for (const BodySource& source : scene.bodies) {
-    if (source.kind != BodyKind::kFree) continue;
+    if (source.kind != BodyKind::kFree && !std::holds_alternative<DiskFile>(source.what)) continue;
     const Sum sum = std::visit(SourceSum{static_cast<double>(source.count)}, source.what);
     total.count += sum.count;
     total.radii += sum.radii;

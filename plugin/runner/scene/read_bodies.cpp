@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -30,13 +32,17 @@ void CheckMass(const TableReader& entry, std::string_view key, double radius, co
                                 radius, material.density));
 }
 
-/// A file that the scene names: below the scene's own folder, so that a scene can be copied with what it needs.
-std::filesystem::path FileBelow(TableReader* entry, std::string_view key) {
-  const std::filesystem::path path = entry->Text(key);
-  if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) {
-    entry->Refuse(key, fmt::format("is '{}'; give a path below the scene's folder, without '..'", path.string()));
+/// A table that the scene names; a relative path begins in the scene's folder.
+std::filesystem::path TablePath(TableReader* entry) {
+  const std::filesystem::path path = entry->file().parent_path() / entry->Text("file");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    entry->Refuse("file",
+                  fmt::format("names {}, which is no file; correct the name, which is relative to the scene's folder, or "
+                              "add the file",
+                              path.string()));
   }
-  return entry->file().parent_path() / path;
+  return path;
 }
 
 /// Free unless the file says otherwise; [[walls]] are the usual place of prescribed bodies.
@@ -112,34 +118,57 @@ BodySource ReadDeposition(TableReader* entry, const Scene& scene) {
   return source;
 }
 
+/// How far the centres of a table reach out of the plane.
+struct Depth {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, largest_radius = 0.0;  // [m]
+
+  void Add(const DiskRow& row) {
+    lowest = std::min(lowest, row.z);
+    highest = std::max(highest, row.z);
+    largest_radius = std::max(largest_radius, row.radius);
+  }
+  bool IsPlane() const { return highest - lowest <= 1e-3 * largest_radius; }
+};
+
 /// Reads the file through: counts its rows and checks each.
-BodySource ReadDiskFile(TableReader* entry, const Scene& scene) {
+BodySource ReadDiskFile(TableReader* entry, const Scene& scene, Notes* notes) {
   BodySource source = ReadSource(entry, scene);
   source.kind = ReadKind(entry);
-  const std::filesystem::path path = FileBelow(entry, "file");
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    entry->Refuse("file", fmt::format("names {}, which is not there; correct the name or add the file", path.string()));
-  }
-  DiskFileReader reader(path);
+  DiskFile file{.path = TablePath(entry)};
+  DiskFileReader reader(file.path);
   source.count = 0;
-  double radii = 0.0;
-  for (DiskRow row; reader.Next(&row); ++source.count) {
-    radii += row.radius;
-    const std::string where = fmt::format("{}:{}:", path.string(), row.line);
+  Depth depth;
+  for (;; ++source.count) {
+    DiskRow row;
+    if (!reader.Next(&row)) break;
+    depth.Add(row);
+    if (row.kind.value_or(source.kind) == BodyKind::kFree) {
+      ++file.free;
+      file.free_radii += row.radius;
+    }
+    const std::string where = fmt::format("{}:{}:", file.path.string(), row.line);
     const int material = row.material.empty() ? source.material : FindMaterial(scene, row.material, where);
     if (!HasMass(row.radius, scene.materials[static_cast<std::size_t>(material)].density)) {
       throw Error(fmt::format("{} radius {} m gives a mass that no computer number holds; change it.", where, row.radius));
     }
   }
   if (source.count == 0)
-    entry->Refuse("file", fmt::format("names {}, which has no disk; add rows or leave the entry out", path.string()));
-  source.what = DiskFile{path, reader.has_ids(), radii / static_cast<double>(source.count)};
+    entry->Refuse("file", fmt::format("names {}, which has no disk; add rows or leave the entry out", file.path.string()));
+  if (!depth.IsPlane()) {
+    entry->Refuse("file",
+                  fmt::format("names {}, whose spheres are no plane of disks: z goes from {} to {} m; keep the rows of one "
+                              "layer, or give just the plane's two coordinates, as x and y",
+                              file.path.string(), depth.lowest, depth.highest));
+  }
+  file.has_ids = reader.has_ids();
+  const std::vector<std::string> remarks = reader.Remarks();
+  notes->sentences.insert(notes->sentences.end(), remarks.begin(), remarks.end());
+  source.what = std::move(file);
   return source;
 }
 
-BodySource ReadDisk(TableReader* entry, const Scene& scene) {
-  if (entry->Has("file")) return ReadDiskFile(entry, scene);
+BodySource ReadDisk(TableReader* entry, const Scene& scene, Notes* notes) {
+  if (entry->Has("file")) return ReadDiskFile(entry, scene, notes);
   BodySource source = ReadSource(entry, scene);
   source.kind = ReadKind(entry);
   source.id = ReadId(entry);
@@ -184,9 +213,9 @@ BodySource ReadCluster(TableReader* entry, const Scene& scene) {
   return source;
 }
 
-using ReadEntry = BodySource (*)(TableReader*, const Scene&);
+using ReadEntry = std::function<BodySource(TableReader*, const Scene&)>;
 
-void ReadAll(TableReader* root, std::string_view key, ReadEntry read, Scene* scene) {
+void ReadAll(TableReader* root, std::string_view key, const ReadEntry& read, Scene* scene) {
   for (TableReader& entry : root->Tables(key)) {
     scene->bodies.push_back(read(&entry, *scene));
     entry.Finish();
@@ -220,7 +249,8 @@ BodySource ReadSource(TableReader* entry, const Scene& scene) {
 }
 
 void ReadGrains(TableReader* root, Scene* scene) {
-  ReadAll(root, "disks", ReadDisk, scene);
+  const auto read_disk = [&](TableReader* entry, const Scene& so_far) { return ReadDisk(entry, so_far, &scene->notes); };
+  ReadAll(root, "disks", read_disk, scene);
   ReadAll(root, "lattices", ReadLattice, scene);
   ReadAll(root, "depositions", ReadDeposition, scene);
   ReadAll(root, "clusters", ReadCluster, scene);

@@ -7,7 +7,7 @@
 namespace nscdd {
 
 /// Reads what [[disks]], [[lattices]], [[depositions]] and [[clusters]] say and appends it to scene->bodies. The materials and
-/// the file's path are in `scene` already. CSV files are read through once, to count and check their rows.
+/// the file's path are in `scene` already. Tables are read through once, to count and check their rows.
 void ReadGrains(TableReader* root, Scene* scene);
 
 /// The keys that every kind of body has: material, velocity, spin.

@@ -187,14 +187,17 @@ void ReadOutput(TableReader* root, Scene* scene) {
   table->Finish();
 }
 
+bool HasFreeBody(const BodySource& source) {
+  const auto* file = std::get_if<DiskFile>(&source.what);
+  return file != nullptr ? file->free > 0 : source.kind == BodyKind::kFree;
+}
+
 void CheckBodies(const TableReader& root, const Scene& scene) {
   if (scene.bodies.empty())
     root.Refuse("disks",
                 "is missing, and so is every other body; add [[disks]], [[lattices]], [[depositions]] or [[clusters]]");
-  const bool any_free = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const BodySource& source) { return source.kind == BodyKind::kFree; });
+  const bool any_free = std::any_of(scene.bodies.begin(), scene.bodies.end(), HasFreeBody);
   if (!any_free) root.Refuse("disks", "has no free body in it, nor has any other table; add one that can move");
-  CheckIds(scene);
 }
 
 }  // namespace
@@ -217,6 +220,7 @@ Scene ParseScene(const std::string& text, const std::filesystem::path& path) {
   ReadGrains(&root, &scene);
   root.Finish();
   CheckBodies(root, scene);
+  scene.free_ids = FindFreeIds(scene);
   return scene;
 }
 

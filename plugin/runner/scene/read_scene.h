@@ -8,7 +8,7 @@
 
 namespace nscdd {
 
-/// Reads and checks a scene file and, row by row, the CSV files that it names. The keys: sample_scenes/README.md.
+/// Reads and checks a scene file and, row by row, the tables that it names. The keys: sample_scenes/README.md.
 /// Throws Error "FILE:LINE: key 'x.y' what is wrong; how to mend it." The option keys of [solver] are not checked here.
 Scene ReadSceneFile(const std::filesystem::path& path);
 

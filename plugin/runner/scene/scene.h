@@ -12,6 +12,7 @@
 #include "nscdd/reference/world.h"
 #include "nscdd/vector.h"
 #include "scene/deposition.h"
+#include "scene/free_ids.h"
 #include "scene/gravity.h"
 #include "scene/lattice.h"
 #include "scene/notes.h"
@@ -43,11 +44,12 @@ struct SingleDisk {
   double radius = 0.0;  ///< [m]
 };
 
-/// Disks in a CSV file; read row by row, never held.
+/// Disks in a table; read row by row, never held.
 struct DiskFile {
   std::filesystem::path path;
   bool has_ids = false;
-  double mean_radius = 0.0;  ///< [m]
+  std::int64_t free = 0;    ///< disks that are free
+  double free_radii = 0.0;  ///< [m] sum over them
 };
 
 /// A rigid assembly of disks, at one or more places.
@@ -76,7 +78,7 @@ struct BodySource {
   int material = 0;  ///< index in Scene::materials
   BodyKind kind = BodyKind::kFree;
   Twist velocity;
-  std::optional<std::int64_t> id;  ///< of a single body; without it bodies are numbered by their place in the scene
+  std::optional<std::int64_t> id;  ///< of a single body
 };
 
 /// A key of [solver] that the solver itself will understand or refuse.
@@ -120,7 +122,8 @@ struct Scene {
   GravityLaw gravity;
   std::optional<Periodicity> periodic;
   std::vector<Material> materials;  ///< never empty; the first is the default
-  std::vector<BodySource> bodies;   ///< walls first
+  std::vector<BodySource> bodies;   ///< walls first, clusters last
+  FreeIds free_ids;                 ///< for bodies without an id of their own
   SceneSolver solver;
   OutputSettings output;
   Notes notes;  ///< on what was read
