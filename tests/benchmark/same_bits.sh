@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Whether two builds compute the same bits: runs the sample scenes, shortened, with both programs and compares final.csv, steps.csv
-# without its seconds, and the contacts in results.h5; exports and solves single problems. Two to three minutes.
+# Whether two builds compute the same bits: runs the sample scenes, shortened, with both programs and compares final.csv and
+# steps.csv without its seconds (results.h5 carries times of its own); solves single problems with both. Two minutes on two cores.
 #     tests/benchmark/same_bits.sh OLD_NSCDD NEW_NSCDD        (each takes the plugin of its own build)
 # Ends with 1 if a case differs. Same compiler, flags and machine: otherwise differences say nothing.
 set -uo pipefail
@@ -38,26 +38,27 @@ compare() {  # ranks, scene, options of the run
     echo "the old program failed: $label"; tail -n 2 "$work/old.log"; verdict 1 "$label"; return
   fi
   cmp -s "$work/old/final.csv" "$work/new/final.csv" &&
-    cmp -s <(without_seconds "$work/old/steps.csv") <(without_seconds "$work/new/steps.csv") &&
-    h5diff -q --exclude-path /run "$work/old/results.h5" "$work/new/results.h5" >/dev/null 2>&1
+    cmp -s <(without_seconds "$work/old/steps.csv") <(without_seconds "$work/new/steps.csv")
   verdict $? "$label"
 }
 
 compare_solve() {  # scene, step, options of the solver
   local scene=$1 label="solve $*" step=$2
   shift 2
-  for which in old new; do
-    "${!which}" export "sample_scenes/$scene.toml" --step "$step" --json "$work/$which.json" --fclib "$work/$which.hdf5" >/dev/null 2>&1
-    "${!which}" solve "$work/$which.json" "$@" 2>&1 | grep -v seconds >"$work/$which.txt"
-  done
-  [[ -s $work/old.json ]] && cmp -s "$work/old.json" "$work/new.json" && cmp -s "$work/old.txt" "$work/new.txt" &&
-    h5diff -q "$work/old.hdf5" "$work/new.hdf5" >/dev/null 2>&1
+  "$old" export "sample_scenes/$scene.toml" --step "$step" --json "$work/problem.json" >"$work/old.log" 2>&1
+  "$old" solve "$work/problem.json" "$@" 2>&1 | grep -v seconds >"$work/old.txt"
+  "$new" solve "$work/problem.json" "$@" 2>&1 | grep -v seconds >"$work/new.txt"
+  grep -q V_end "$work/old.txt" && cmp -s "$work/old.txt" "$work/new.txt"
   verdict $? "$label"
 }
 
 nscdd=(--solver nscdd --subdomains 2x2)
 fea=(--solver fea --subdomains 2x2)
-for scene in two_disks column pyramid incline_roll clusters drum sloped_flow_750 rotating_box_730 rotating_box_730_frictionless; do
+for scene in two_disks column pyramid incline_roll; do
+  compare 2 $scene --steps 20 "${nscdd[@]}"
+  compare 1 $scene --steps 20 "${fea[@]}"
+done
+for scene in clusters drum sloped_flow_750 rotating_box_730 rotating_box_730_frictionless; do
   compare 1 $scene --steps 20 --solver nscd
   compare 1 $scene --steps 20 "${nscdd[@]}"
   compare 2 $scene --steps 20 "${nscdd[@]}"
@@ -78,7 +79,7 @@ done
 compare 1 pyramid --steps 3 --solver newton
 compare 1 rotating_box_730 --steps 6 --cold --solver nscd --criterion nat_max --tolerance 1e-2
 compare 2 rotating_box_730 --steps 6 "${fea[@]}" --option compatibility=sticking --option status_compatibility=normal --option repartition_every=3
-compare 2 rotating_box_730 --steps 4 "${fea[@]}" --linear-solver mumps --option local_velocity=current --interface cg
+compare 2 rotating_box_730 --steps 4 "${fea[@]}" --option linear_solver=mumps --option local_velocity=current --interface cg
 compare 1 box_10k --steps 5
 compare 2 box_10k --steps 5 --solver nscdd --subdomains 2x2
 compare 1 box_100k --steps 2

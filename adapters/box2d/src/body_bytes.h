@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/box2d/exact_body.h"
 
 namespace nscdd::box2d {
 

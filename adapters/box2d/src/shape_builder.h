@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/box2d/exact_body.h"
 #include "shape.h"
 
 namespace nscdd::box2d {
