@@ -4,6 +4,7 @@
 #include <box2d/box2d.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -7,6 +7,8 @@
 #include "nscdd/box2d/exact_body.h"
 #include "shape.h"
 
+class b2Body;
+
 namespace nscdd::box2d {
 
 /// A shape and its wall, before they are stored.
