@@ -14,16 +14,16 @@ namespace nscdd {
 /// A table of numbers in columns, kept for the C interface.
 class ResultTable {
  public:
-  void FillBodies(std::span<const BodyRecord> records);
-  void FillContacts(std::span<const ContactRecord> records);
+  void FillBodies(const BodyResults& results);
+  void FillContacts(const ContactResults& results);
   void FillIterations(std::span<const IterationRecord> records);
 
   /// Points into this object; the header is left alone.
   void Show(nscdd_table* table) const;
 
  private:
-  template <class Record, class Columns>
-  void Fill(std::span<const Record> records, const Columns& columns);
+  template <class Results, class Columns>
+  void Fill(const Results& results, const Columns& columns);
 
   std::uint64_t rows_ = 0;
   std::vector<std::uint64_t> numbers_;  // column after column; bits of a double or of an int64_t

@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "guard.h"
 #include "nscdd/callback/contact_arrays.h"
-#include "partition/grid.h"
 
 namespace nscdd {
 namespace {
@@ -42,19 +40,6 @@ void CopyMasses(const nscdd_problem& source, std::size_t count, ContactProblem* 
   for (std::size_t i = 0; i < count; ++i) {
     if (problem->mass[i] == kInfinite) problem->inertia[i] = kInfinite;
   }
-}
-
-std::vector<int> PartitionSites(const std::vector<Vec2>& site, const PartitionOptions& partition) {
-  std::vector<int> subdomain;
-  if (site.empty()) return subdomain;
-  Vec2 low = site.front(), high = site.front();
-  for (const Vec2& p : site) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const Grid grid(low, high, partition.nx, partition.ny);
-  for (const Vec2& p : site) subdomain.push_back(grid.CellOf(p));
-  return subdomain;
 }
 
 // What the core does not look at before it is used.
@@ -104,7 +89,7 @@ SingleProblem CopyProblem(const nscdd_problem& source, const PartitionOptions& g
                &problem.contacts);
   CheckNumbers(problem.contacts);
   problem.offset = CopyArray<double>(source.offset, "offset", problem.contacts.size());
-  if (several) problem.subdomain = PartitionSites(problem.contacts.site, grid);
+  if (several) problem.subdomain = SubdomainsOf(problem.contacts.site, grid.nx, grid.ny);
   if (!std::isfinite(source.approach_speed) || source.approach_speed < 0.0) {
     throw Error(fmt::format("{}: approach_speed is {} m/s, must be finite and >= 0", kWho, source.approach_speed));
   }

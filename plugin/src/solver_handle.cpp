@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "guard.h"
+#include "nscdd/agreement.h"
 #include "nscdd/callback/abi_check.h"
 #include "nscdd/contact_problem.h"
 #include "nscdd/mpi_communicator.h"
-#include "parallel/agreement.h"
 #include "report_copy.h"
 #include "single_problem.h"
 
@@ -56,15 +56,6 @@ SolverSettings ReadSettings(const nscdd_create_arguments& arguments) {
     texts.emplace_back(name, value);
   }
   return MakeSettings(solver, texts);
-}
-
-PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
-  return std::visit(
-      [](const auto& options) {
-        if constexpr (requires { options.partition; }) return options.partition;
-        return PartitionOptions{};
-      },
-      algorithm);
 }
 
 /// What this rank asked for, a line each.

@@ -6,6 +6,7 @@
 
 #include "partition/sharing.h"
 #include "problem/subdomain_builder.h"
+#include "stepping/subdomain_contacts.h"
 
 namespace nscdd::benchmark {
 
@@ -17,17 +18,12 @@ SubdomainProblem BuildSubdomain(const StepProblem& step) {
     inverse_mass.push_back(free ? 1.0 / p.mass[i] : 0.0);
     inverse_inertia.push_back(free ? 1.0 / p.inertia[i] : 0.0);
   }
-  std::vector<std::int32_t> contacts(p.contacts.size());
-  std::iota(contacts.begin(), contacts.end(), 0);
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (const std::int32_t c : contacts) {
-    for (const std::int32_t body : {p.contacts.a[c], p.contacts.b[c]}) {
-      if (inverse_mass[body] > 0.0) pairs.emplace_back(body, 0);
-    }
-  }
-  const Sharing sharing = MakeSharing(p.mass.size(), std::move(pairs));
+  SubdomainContacts all{0, {std::vector<std::int32_t>(p.contacts.size())}};
+  std::iota(all.rows[0].begin(), all.rows[0].end(), 0);
+  const auto is_free = [&](std::int32_t body) { return inverse_mass[body] > 0.0; };
+  const Sharing sharing = MakeSharing(p.mass.size(), TouchedBodies(p.contacts, all, p.mass.size(), is_free));
   const ProblemTables tables{inverse_mass, inverse_inertia, p.free_velocity, &p.contacts, p.offset, &sharing};
-  return SubdomainBuilder(tables, RequiredModel(tables)).Build(0, std::move(contacts));
+  return SubdomainBuilder(tables, RequiredModel(tables)).Build(0, all.rows[0]);
 }
 
 }  // namespace nscdd::benchmark

@@ -8,6 +8,7 @@
 
 #include "nscdd/mpi_communicator.h"
 #include "ranked_host.h"
+#include "rows.h"
 
 namespace nscdd::test {
 namespace {
@@ -210,7 +211,8 @@ int CheckWrongParts(Communicator* c) {
 
 /// Sends the bodies over each other, so that they cross the cuts.
 void Stir(RankedHost* host) {
-  for (const BodyRecord& b : host->stepper->bodies()) host->world.Find(b.id)->velocity = {b.id % 2 == 0 ? 8.0 : -8.0, 4.0, 0.0};
+  for (const test::BodyRow& b : test::Rows(host->stepper->bodies()))
+    host->world.Find(b.id)->velocity = {b.id % 2 == 0 ? 8.0 : -8.0, 4.0, 0.0};
 }
 
 // The transport fails again and again, on one rank after the other, while bodies and ghosts cross the cuts.

@@ -13,6 +13,7 @@
 #include "nscdd/reference/reference_adapter.h"
 #include "packing.h"
 #include "rank_part.h"
+#include "rows.h"
 
 namespace nscdd::test {
 namespace {
@@ -85,10 +86,10 @@ double LargestDefect(const Packing& packing, const AlgorithmOptions& options, Co
     stepper.Step(kDt);
     Vec2 after{}, walls{};
     double impulses = 0.0;
-    for (const BodyRecord& b : stepper.bodies()) {
+    for (const test::BodyRow& b : test::Rows(stepper.bodies())) {
       if (b.kind == BodyKind::kFree) after = after + bodies.at(b.id).mass * Linear(b.velocity);
     }
-    for (const ContactRecord& c : stepper.contacts()) {
+    for (const test::ContactRow& c : test::Rows(stepper.contacts())) {
       const Vec2 on_b = c.impulse.x * c.normal + c.impulse.y * Vec2{c.normal.y, -c.normal.x};
       impulses += Norm(on_b);
       if (bodies.at(c.key.body_a).kind != BodyKind::kFree) walls = walls + on_b;

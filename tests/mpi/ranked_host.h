@@ -17,6 +17,7 @@
 #include "nscdd/reference/reference_adapter.h"
 #include "nscdd/time_stepper.h"
 #include "packing.h"
+#include "rows.h"
 
 namespace nscdd::test {
 
@@ -99,9 +100,7 @@ struct RankedHost {
   }
 
   /// True on the rank that moves the body.
-  bool Owns(std::int64_t id) const {
-    return std::ranges::any_of(stepper->bodies(), [&](const BodyRecord& b) { return b.id == id; });
-  }
+  bool Owns(std::int64_t id) const { return std::ranges::count(stepper->bodies().id, id) > 0; }
   void Step(int count) {
     for (int k = 0; k < count; ++k) stepper->Step(0.01);
   }
@@ -115,7 +114,7 @@ struct RankedHost {
 /// Bodies of all ranks by id: id, pose, velocity, multiplicity, subdomain.
 inline std::vector<std::vector<double>> Gather(const RankedHost& host) {
   std::vector<double> mine;
-  for (const BodyRecord& b : host.stepper->bodies()) {
+  for (const test::BodyRow& b : test::Rows(host.stepper->bodies())) {
     mine.insert(mine.end(), {static_cast<double>(b.id), b.pose.x, b.pose.y, b.pose.angle, b.velocity.vx, b.velocity.vy,
                              b.velocity.spin, static_cast<double>(b.multiplicity), static_cast<double>(b.subdomain)});
   }

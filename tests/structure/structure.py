@@ -45,6 +45,19 @@ def find_include(root, path, part, name):
     return None, None
 
 
+def floor_of(path):
+    """(number of the tower, floor in it, the floor's name) of a path; None where no floors are told."""
+    matches = [(len(name), tower, floor, name) for tower, floors in enumerate(rules.FLOORS)
+               for floor, name in enumerate(floors) if path.startswith(name)]
+    return max(matches)[1:] if matches else None
+
+
+def check_floor(where, found):
+    here, there = floor_of(where), floor_of(found)
+    if here and there and here[0] == there[0] and there[1] > here[1]:
+        yield f"{where} includes {found}, which is upstairs: {here[2]} is a lower floor than {there[2]}."
+
+
 def check_own_include(root, path, where, name):
     part = part_of(where)
     if part is None:
@@ -55,6 +68,8 @@ def check_own_include(root, path, where, name):
     elif target != part and target not in rules.MAY_INCLUDE[part]:
         allowed = ", ".join(sorted(rules.MAY_INCLUDE[part])) or "nothing"
         yield f"{where} includes {found}: {part} may include {allowed} beside itself, not {target}."
+    else:
+        yield from check_floor(where, found)
     if name in rules.SOLVER_HEADERS and where.startswith(rules.THROUGH_THE_PLUGIN):
         yield f"{where} includes {name}: {part} solves through the loaded plugin only."
 

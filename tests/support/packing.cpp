@@ -10,6 +10,7 @@
 #include <random>
 
 #include "nscdd/reference/reference_adapter.h"
+#include "rows.h"
 
 namespace nscdd::test {
 namespace {
@@ -92,7 +93,7 @@ Outcome Run(const Packing& packing, const SteppingOptions& stepping, const Algor
   for (int k = 0; k < steps; ++k) outcome.reports.push_back(stepper.Step(0.01));
 
   std::vector<double> mine;
-  for (const BodyRecord& b : stepper.bodies()) {
+  for (const test::BodyRow& b : test::Rows(stepper.bodies())) {
     mine.insert(mine.end(), {static_cast<double>(b.id), b.pose.x, b.pose.y, b.pose.angle, b.velocity.vx, b.velocity.vy,
                              b.velocity.spin, static_cast<double>(b.multiplicity), static_cast<double>(b.subdomain)});
   }
@@ -101,7 +102,6 @@ Outcome Run(const Packing& packing, const SteppingOptions& stepping, const Algor
     const double* r = &gathered[i];
     outcome.bodies.push_back({static_cast<std::int64_t>(r[0]),
                               BodyKind::kFree,
-                              0.0,
                               {r[1], r[2], r[3]},
                               {r[4], r[5], r[6]},
                               static_cast<int>(r[7]),
@@ -147,7 +147,7 @@ std::string Difference(const Outcome& one, const Outcome& other) {
     }
   }
   for (std::size_t i = 0; i < one.bodies.size(); ++i) {
-    const BodyRecord &a = one.bodies[i], &b = other.bodies[i];
+    const BodyRow &a = one.bodies[i], &b = other.bodies[i];
     if (a.id != b.id || std::memcmp(&a.pose, &b.pose, sizeof(Pose)) != 0 ||
         std::memcmp(&a.velocity, &b.velocity, sizeof(Twist)) != 0 || a.multiplicity != b.multiplicity ||
         a.subdomain != b.subdomain) {

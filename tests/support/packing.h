@@ -9,6 +9,7 @@
 #include "nscdd/reference/world.h"
 #include "nscdd/report.h"
 #include "nscdd/time_stepper.h"
+#include "rows.h"
 
 namespace nscdd::test {
 
@@ -31,7 +32,7 @@ std::vector<reference::Body> MakeBodies(const Packing& packing);
 
 /// What a run left: bodies of all ranks by id, and the reports of its steps.
 struct Outcome {
-  std::vector<BodyRecord> bodies;
+  std::vector<BodyRow> bodies;
   std::vector<StepReport> reports;
 };
 

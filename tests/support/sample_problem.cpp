@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sample_problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
 
-#include "problem/initial_state.h"
-#include "problem/subdomain_builder.h"
+#include "problem/state.h"
+#include "stepping/step_problem.h"
 
 namespace nscdd::test {
 namespace {
@@ -76,31 +77,24 @@ ContactProblem FlowerProblem(int petals) {
 }
 
 Sample::Sample(const ContactProblem& p) : source(p) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
     inverse_mass.push_back(std::isinf(p.mass[i]) ? 0.0 : 1.0 / p.mass[i]);
     inverse_inertia.push_back(std::isinf(p.mass[i]) ? 0.0 : 1.0 / p.inertia[i]);
     body_id.push_back(static_cast<std::int64_t>(i));
   }
-  int count = 1;
-  for (const int e : p.subdomain) count = std::max(count, e + 1);
-  std::vector<std::vector<std::int32_t>> rows(count);
+  SubdomainContacts chosen;
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    rows[p.subdomain[c]].push_back(static_cast<std::int32_t>(c));
-    for (const int body : {p.contacts.a[c], p.contacts.b[c]}) {
-      if (inverse_mass[body] > 0.0) pairs.emplace_back(body, p.subdomain[c]);
-    }
+    chosen.rows.resize(std::max<std::size_t>(chosen.rows.size(), p.subdomain[c] + 1));
+    chosen.rows[p.subdomain[c]].push_back(static_cast<std::int32_t>(c));
   }
-  sharing = MakeSharing(p.mass.size(), pairs);
+  const auto is_free = [&](std::int32_t body) { return inverse_mass[body] > 0.0; };
+  sharing = MakeSharing(p.mass.size(), TouchedBodies(p.contacts, chosen, p.mass.size(), is_free));
   const ProblemTables tables{inverse_mass, inverse_inertia, p.free_velocity, &p.contacts, p.offset, &sharing};
-  problem.model = RequiredModel(tables);
-  SubdomainBuilder builder(tables, problem.model);
-  for (int e = 0; e < count; ++e) problem.subdomains.push_back(builder.Build(e, rows[e]));
-  problem.interface = MakeInterfaceMap(problem.subdomains, sharing, Blocks(count, 1), 0);
-  problem.scales = {1.0, 1.0, 1.0};
-  problem.contact_count = static_cast<std::int64_t>(p.contacts.size());
-  problem.contacts = &p.contacts;
-  problem.body_id = &body_id;
+  ProblemTotals totals;
+  totals.model = RequiredModel(tables);
+  totals.scales = {1.0, 1.0, 1.0};
+  totals.contacts = static_cast<std::int64_t>(p.contacts.size());
+  problem = AssembleProblem(tables, body_id, chosen, totals, Blocks(static_cast<int>(chosen.rows.size()), 1), 0);
 }
 
 std::vector<Twist> Sample::GlobalVelocity(const PartitionedState& state) const {

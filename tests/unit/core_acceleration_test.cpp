@@ -11,7 +11,7 @@
 #include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"
-#include "problem/initial_state.h"
+#include "problem/state.h"
 #include "sample_problem.h"
 
 namespace nscdd {
@@ -101,7 +101,8 @@ TEST(Acceleration, ExtrapolatesInsideTheCones) {
   const Sample sample(p);
   SerialCommunicator serial;
   PartitionedState state = InitialState(sample.problem, {});
-  Anderson anderson(sample.problem, {}, nullptr, &serial, state);
+  const Gluing gluing(sample.problem.subdomains, sample.problem.interface, &serial);
+  Anderson anderson(sample.problem, {}, &gluing, &serial, state);
   for (int k = 1; k <= 40; ++k) {
     Sweep(sample.problem.subdomains.front(), &state.subdomains.front());
     anderson.Extrapolate(k, &state);

@@ -11,8 +11,8 @@
 #include "algorithms/stages.h"
 #include "interface/augmented_subdomain.h"
 #include "nscdd/error.h"
-#include "problem/initial_state.h"
 #include "problem/problem_file.h"
+#include "problem/state.h"
 #include "sample_problem.h"
 
 namespace nscdd {

@@ -13,6 +13,7 @@
 
 #include "host.h"
 #include "packing.h"
+#include "rows.h"
 
 namespace nscdd {
 namespace {
@@ -49,8 +50,8 @@ struct Balance {
   double sources = 0.0;   ///< sum of max(0, r . (v + v') / 2) over the contacts: what the scheme and the residual feed [J]
 };
 
-void AddContact(const ContactRecord& c, const Host& host, const std::map<std::int64_t, reference::Body>& before, Vec2* momentum,
-                Balance* balance) {
+void AddContact(const test::ContactRow& c, const Host& host, const std::map<std::int64_t, reference::Body>& before,
+                Vec2* momentum, Balance* balance) {
   const Vec2 r = c.impulse.x * c.normal + c.impulse.y * Vec2{c.normal.y, -c.normal.x};
   double relative = 0.0;
   for (const double sign : {-1.0, 1.0}) {
@@ -87,7 +88,7 @@ Balance StepWithBalance(Host* host) {
                       0.5 * body.inertia * (w.spin * w.spin - v.spin * v.spin) -
                       body.mass * Dot(g, Centre(after.pose) - Centre(body.pose));
   }
-  for (const ContactRecord& c : host->stepper().contacts()) AddContact(c, *host, before, &momentum, &balance);
+  for (const test::ContactRow& c : test::Rows(host->stepper().contacts())) AddContact(c, *host, before, &momentum, &balance);
   balance.momentum = Norm(momentum);
   return balance;
 }

@@ -34,8 +34,8 @@ TEST(ClosedForm, DiskAtRest) {
   EXPECT_NEAR(disk.velocity.vy, 0.0, 1e-14);
   EXPECT_EQ(disk.velocity.spin, 0.0);
   ASSERT_EQ(host.stepper().contacts().size(), 1u);
-  EXPECT_NEAR(host.stepper().contacts()[0].impulse.x, disk.mass * kG * kDt, 1e-10);
-  EXPECT_EQ(host.stepper().contacts()[0].status, 1);
+  EXPECT_NEAR(host.stepper().contacts().impulse[0].x, disk.mass * kG * kDt, 1e-10);
+  EXPECT_EQ(host.stepper().contacts().status[0], ContactStatus::kSticking);
   EXPECT_EQ(report.step, 1000);
   EXPECT_NEAR(report.time, 10.0, 1e-12);
 }
@@ -52,7 +52,7 @@ TEST(ClosedForm, Slide) {
   EXPECT_NEAR(disk.pose.x, 0.5 * a * t * t, 1e-10);
   EXPECT_NEAR(disk.pose.angle, 0.5 * spin * t, 1e-10);
   EXPECT_NEAR(disk.pose.y, 0.5, 1e-12);
-  EXPECT_EQ(host.stepper().contacts()[0].status, 2);
+  EXPECT_EQ(host.stepper().contacts().status[0], ContactStatus::kSliding);
 }
 
 TEST(ClosedForm, Roll) {
@@ -155,8 +155,8 @@ TEST(NormalLaws, OpenContactClosesWithoutRebound) {
     const StepReport& report = host.Step(kDt);
     EXPECT_NEAR(disk.velocity.vy, -gap / kDt, 1e-13);
     EXPECT_NEAR(disk.pose.y - 0.5, (1.0 - theta) * gap, 1e-15);
-    EXPECT_NEAR(host.stepper().contacts()[0].gap, gap, 1e-15);
-    EXPECT_NEAR(host.stepper().contacts()[0].final_gap, (1.0 - theta) * gap, 1e-15);
+    EXPECT_NEAR(host.stepper().contacts().gap[0], gap, 1e-15);
+    EXPECT_NEAR(host.stepper().contacts().final_gap[0], (1.0 - theta) * gap, 1e-15);
     EXPECT_EQ(report.max_interpenetration, 0.0);
   }
 }

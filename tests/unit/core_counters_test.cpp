@@ -7,7 +7,8 @@
 
 #include "host.h"
 #include "packing.h"
-#include "problem/initial_state.h"
+#include "problem/state.h"
+#include "rows.h"
 #include "sample_problem.h"
 
 namespace nscdd {
@@ -139,7 +140,7 @@ TEST(Interface, WallsHaveNoMultiplicity) {
   const StepReport& report = host.Step(0.01);
   std::int64_t bodies = 0, copies = 0;
   int most = 0;
-  for (const BodyRecord& b : host.stepper().bodies()) {
+  for (const test::BodyRow& b : test::Rows(host.stepper().bodies())) {
     if (b.kind == BodyKind::kPrescribed) {
       EXPECT_EQ(b.multiplicity, 0);
     }
@@ -173,7 +174,7 @@ TEST(Interface, OneBodyInSixSubdomains) {
   EXPECT_EQ(report.solve.max_multiplicity, 6);
   EXPECT_EQ(report.solve.interface_bodies, 1);
   EXPECT_EQ(report.solve.empty_subdomains, 81 - 6);
-  EXPECT_EQ(parts.stepper().bodies()[0].multiplicity, 6);
+  EXPECT_EQ(parts.stepper().bodies().multiplicity[0], 6);
   for (int i = 0; i < 7; ++i) {
     EXPECT_NEAR(whole.body(i).velocity.vx, parts.body(i).velocity.vx, 1e-9);
     EXPECT_NEAR(whole.body(i).velocity.vy, parts.body(i).velocity.vy, 1e-9);

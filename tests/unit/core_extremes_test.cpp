@@ -11,6 +11,7 @@
 
 #include "host.h"
 #include "packing.h"
+#include "rows.h"
 
 namespace nscdd {
 namespace {
@@ -61,7 +62,7 @@ Velocities OneStep(const Packing& packing, const Named& solver,
   const StepReport& report = host.Step(dt);
   EXPECT_LE(report.solve.residuals.nat, solver.nat) << solver.name << ": " << report.solve.reason;
   Velocities velocities;
-  for (const BodyRecord& body : host.stepper().bodies()) velocities[body.id] = body.velocity;
+  for (const test::BodyRow& body : test::Rows(host.stepper().bodies())) velocities[body.id] = body.velocity;
   return velocities;
 }
 

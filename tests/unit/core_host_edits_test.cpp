@@ -200,6 +200,9 @@ TEST(Continuation, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   damaged.insert(damaged.end(), not_finite.begin(), not_finite.end());
   ExpectContains(refused(damaged), "an impulse in it is not finite");
   ExpectContains(refused(other.stepper().SaveState()), "3x3");
+  std::vector<std::byte> older = saved;
+  older[7] = static_cast<std::byte>('2');  // the layout before this one
+  ExpectContains(refused(older), "another version");
   const std::span<const std::byte> part(saved);
   const std::array twice{part, part};
   ExpectContains(Refusal([&] { pile.stepper().LoadState(twice); }), "1 ranks saved the state and 2 parts");
@@ -220,7 +223,7 @@ TEST(Repartition, EveryKSteps) {
       host.Step(1.0);
       const int placed = 1 + (step - 1) / every * every;  // the step in which the cuts were placed
       const double cut = 0.5 * (10.0 + placed - 0.5);
-      EXPECT_EQ(host.stepper().bodies()[1].subdomain, 5.6 >= cut ? 1 : 0) << "step " << step << " every " << every;
+      EXPECT_EQ(host.stepper().bodies().subdomain[1], 5.6 >= cut ? 1 : 0) << "step " << step << " every " << every;
     }
   }
 }

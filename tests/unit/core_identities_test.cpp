@@ -9,7 +9,7 @@
 #include "algorithms/algorithms.h"
 #include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
-#include "problem/initial_state.h"
+#include "problem/state.h"
 #include "problem/subdomain_builder.h"
 #include "sample_problem.h"
 

@@ -10,7 +10,7 @@
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"
 #include "parallel/ordered_reduction.h"
-#include "problem/initial_state.h"
+#include "problem/state.h"
 #include "sample_problem.h"
 
 namespace nscdd {
@@ -219,10 +219,16 @@ TEST(TestEvery, DoesNotChangeTheIterates) {
 
 TEST(NotANumber, SurvivesTheReduction) {
   SerialCommunicator serial;
-  const std::vector<ReductionPart<1, 1>> parts{{1.0, 2.0}, {kNan, kNan}, {1.0, 3.0}};
-  const auto total = ReduceInOrder<1, 1>(parts, &serial);
-  EXPECT_TRUE(std::isnan(total[0]));
-  EXPECT_TRUE(std::isnan(total[1]));
+  struct Sum {
+    double x;
+  };
+  struct Maximum {
+    double x;
+  };
+  const std::vector<ReductionPart<Sum, Maximum>> parts{{{1.0}, {2.0}}, {{kNan}, {kNan}}, {{1.0}, {3.0}}};
+  const auto total = ReduceInOrder(parts, &serial);
+  EXPECT_TRUE(std::isnan(total.sum.x));
+  EXPECT_TRUE(std::isnan(total.max.x));
 }
 
 // A single contact that moves is the worst one.

@@ -10,7 +10,7 @@
 #include "nlgs/residual.h"
 #include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
-#include "problem/initial_state.h"
+#include "problem/state.h"
 #include "sample_problem.h"
 
 namespace nscdd {

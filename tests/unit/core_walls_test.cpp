@@ -74,7 +74,7 @@ TEST(TurningWall, PaddleHitsWithItsLever) {
     const Vec2 along{std::cos(angle), std::sin(angle)}, n{-along.y, along.x}, centre{3.0, 0.5};
     const double s = Dot(along, centre);
     EXPECT_NEAR(Dot(Linear(disk.velocity), n), 0.8 * s, 1e-13) << friction;
-    EXPECT_NEAR(host.stepper().contacts()[0].relative_velocity.x, 0.0, 1e-13);
+    EXPECT_NEAR(host.stepper().contacts().relative_velocity[0].x, 0.0, 1e-13);
     EXPECT_NEAR(paddle.pose.angle, kDt * 0.8, 1e-16);
     EXPECT_EQ(paddle.velocity.spin, 0.8);
     EXPECT_EQ(paddle.pose.x, 0.0);
@@ -127,9 +127,9 @@ TEST(TurningWall, FinalGapIsThatOfTheTurnedWall) {
     host.Step(kDt);
     const double angle = kDt * 0.8;
     ASSERT_EQ(host.stepper().contacts().size(), 1u);
-    EXPECT_EQ(host.stepper().contacts()[0].impulse.x, 0.0);
+    EXPECT_EQ(host.stepper().contacts().impulse[0].x, 0.0);
     const double height = Dot(Vec2{-std::sin(angle), std::cos(angle)}, Centre(disk.pose));
-    EXPECT_NEAR(host.stepper().contacts()[0].final_gap, height - 0.5, 1e-13) << "wall " << id;
+    EXPECT_NEAR(host.stepper().contacts().final_gap[0], height - 0.5, 1e-13) << "wall " << id;
   }
 }
 

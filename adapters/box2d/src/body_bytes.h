@@ -4,10 +4,11 @@
 #include <box2d/box2d.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/box2d/exact_body.h"
 
 namespace nscdd::box2d {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_body.h"
-#include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/box2d/exact_body.h"
 #include "shape_builder.h"
 
 namespace nscdd::box2d {

@@ -7,6 +7,7 @@
 #include "body_store.h"
 #include "broad_phase.h"
 #include "narrow_phase.h"
+#include "nscdd/platform_adapter.h"
 #include "pair_filter.h"
 
 namespace nscdd::box2d {

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/box2d/exact_body.h"
 #include "shape.h"
+
+class b2Body;
 
 namespace nscdd::box2d {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nscdd/communicator.h"
@@ -24,6 +25,10 @@ struct ContactProblem {
   std::vector<int> subdomain;        ///< of each contact, from 0; empty: all in 0
   double approach_speed = 0.0;       ///< [m/s] largest -v_n before the step: scale of nat_max
 };
+
+/// Subdomains for contacts at these sites: the box of the sites is cut into nx x ny equal cells, a site on a cut goes to the
+/// upper one. Cell (ix, iy) is subdomain ix + nx iy.
+std::vector<int> SubdomainsOf(std::span<const Vec2> sites, int nx, int ny);
 
 /// What a solver makes of a ContactProblem: rows are those of its bodies and contacts.
 struct ContactSolution {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nscdd/vector.h"
@@ -21,6 +23,19 @@ struct ContactKey {
 
   auto operator<=>(const ContactKey&) const = default;
 };
+
+/// What a contact does, told by its impulse.
+enum class ContactStatus : std::uint8_t {
+  kOpen = 0,      ///< r_n = 0
+  kSticking = 1,  ///< |r_t| < mu r_n, so v_t = 0
+  kSliding = 2,   ///< |r_t| = mu r_n; a contact without friction that carries an impulse slides
+};
+
+/// The status that (r_n, r_t) says; "active" is every other than open. An impulse that is not a number opens.
+inline ContactStatus StatusOf(Vec2 impulse, double friction) {
+  if (!(impulse.x > 0.0)) return ContactStatus::kOpen;
+  return std::abs(impulse.y) < friction * impulse.x ? ContactStatus::kSticking : ContactStatus::kSliding;
+}
 
 /// Candidate contacts at one configuration, as a structure of arrays with one entry per contact.
 ///
@@ -78,5 +93,11 @@ struct ContactTable {
     restitution.clear();
   }
 };
+
+/// Key of row `contact`; `body_id` are the ids of the table of bodies that a and b refer to.
+inline ContactKey KeyOf(const ContactTable& t, std::size_t contact, std::span<const std::int64_t> body_id) {
+  return {body_id[t.a[contact]], body_id[t.b[contact]], t.shape_a[contact], t.shape_b[contact],
+          t.has_images() ? t.image[contact] : 0};
+}
 
 }  // namespace nscdd

@@ -7,6 +7,9 @@
 
 namespace nscdd {
 
+/// Whether the law sees a candidate with this gap [m] at all.
+inline bool Sees(NormalLaw law, double gap) { return law != NormalLaw::kStrict || !(gap > 0.0); }
+
 /// Offset b_n [m/s] of the normal law 0 <= v_n + b_n _|_ r_n >= 0. `approach` is v_n before the step [m/s]; Newton's
 /// restitution e asks for v_n >= -e approach where the contact is closed and approaching. A gap below 1e-9 of the sum of the
 /// levers, or one that closes within a thousandth of the step, is closed: the law itself brings contacts to a gap of zero give

@@ -166,4 +166,26 @@ struct NewtonOptions {
 
 using AlgorithmOptions = std::variant<NscdOptions, NscddOptions, FeaOptions, ReaOptions, IeaOptions, NewtonOptions>;
 
+/// Whether an algorithm works on several subdomains.
+inline bool HasPartition(const AlgorithmOptions& algorithm) {
+  return std::visit(
+      [](const auto& o) {
+        return requires { o.partition; };
+      },
+      algorithm);
+}
+
+/// The subdomains that an algorithm works on: one, where it knows no others.
+inline PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
+  return std::visit(
+      [](const auto& o) {
+        if constexpr (requires { o.partition; }) {
+          return o.partition;
+        } else {
+          return PartitionOptions{};
+        }
+      },
+      algorithm);
+}
+
 }  // namespace nscdd

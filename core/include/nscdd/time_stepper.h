@@ -7,35 +7,41 @@
 #include <span>
 #include <vector>
 
+#include "nscdd/body_table.h"
 #include "nscdd/communicator.h"
+#include "nscdd/contact_table.h"
 #include "nscdd/options.h"
 #include "nscdd/platform_adapter.h"
 #include "nscdd/report.h"
 
 namespace nscdd {
 
-/// A body of this rank after the last step.
-struct BodyRecord {
-  std::int64_t id;
-  BodyKind kind;
-  double radius;     ///< [m]
-  Pose pose;         ///< end of the step
-  Twist velocity;    ///< end of the step
-  int multiplicity;  ///< subdomains that hold a contact of it; 0: none
-  int subdomain;     ///< home cell of its centre
+/// This rank's bodies after the last step, as a structure of arrays with one entry per body, ascending by id.
+struct BodyResults {
+  std::vector<std::int64_t> id;
+  std::vector<BodyKind> kind;
+  std::vector<double> radius;  ///< [m]
+  std::vector<Pose> pose;      ///< at the end of the step
+  std::vector<Twist> velocity;
+  std::vector<std::int32_t> multiplicity;  ///< subdomains that hold a contact of it; 0: none
+  std::vector<std::int32_t> subdomain;     ///< home cell of its centre
+
+  std::size_t size() const { return id.size(); }
 };
 
-/// A candidate contact that this rank solved in the last step.
-struct ContactRecord {
-  ContactKey key;
-  double gap;        ///< [m] at the detection configuration
-  double final_gap;  ///< [m] at the end of the step
-  Vec2 normal;
-  Vec2 point;              ///< [m] where the impulse acts, at the detection configuration
-  Vec2 impulse;            ///< (r_n, r_t) [N s]
-  Vec2 relative_velocity;  ///< (v_n, v_t) [m/s] at the end of the step
-  int status;              ///< 0 open, 1 sticking, 2 sliding
-  int subdomain;
+/// The candidate contacts that this rank solved in the last step, one entry per contact, ascending by (subdomain, key).
+struct ContactResults {
+  std::vector<ContactKey> key;
+  std::vector<double> gap;        ///< [m] at the detection configuration
+  std::vector<double> final_gap;  ///< [m] at the end of the step
+  std::vector<Vec2> normal;
+  std::vector<Vec2> point;              ///< [m] where the impulse acts, at the detection configuration
+  std::vector<Vec2> impulse;            ///< (r_n, r_t) [N s]
+  std::vector<Vec2> relative_velocity;  ///< (v_n, v_t) [m/s] at the end of the step
+  std::vector<ContactStatus> status;
+  std::vector<std::int32_t> subdomain;
+
+  std::size_t size() const { return key.size(); }
 };
 
 /// The whole time step of Moreau and Jean, over the ranks of `communicator`:
@@ -71,9 +77,9 @@ class TimeStepper {
   /// On as many ranks as before, each with its own part.
   void LoadState(std::span<const std::byte> part);
 
-  /// Of the last step, this rank's part: bodies by id, contacts by (subdomain, key). Valid until the next Step().
-  std::span<const BodyRecord> bodies() const;
-  std::span<const ContactRecord> contacts() const;
+  /// Of the last step, this rank's part. Valid until the next Step().
+  const BodyResults& bodies() const;
+  const ContactResults& contacts() const;
 
  private:
   class Impl;

@@ -46,6 +46,11 @@ struct Wrench {
   double torque = 0.0;
 };
 
+/// The pose after `dt` [s] at constant velocity.
+constexpr Pose Moved(const Pose& q, const Twist& v, double dt) {
+  return {q.x + dt * v.vx, q.y + dt * v.vy, q.angle + dt * v.spin};
+}
+
 constexpr Vec2 Centre(const Pose& q) { return {q.x, q.y}; }
 constexpr Vec2 Linear(const Twist& v) { return {v.vx, v.vy}; }
 

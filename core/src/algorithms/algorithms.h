@@ -36,4 +36,8 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
 SolveReport Solve(const PartitionedProblem& problem, const NewtonOptions& options, Communicator* communicator,
                   InterfaceWorkspace* workspace, PartitionedState* state);
 
+/// The algorithm that the options name. Without any contact: converged, at once.
+SolveReport SolveAny(const PartitionedProblem& problem, const AlgorithmOptions& options, Communicator* communicator,
+                     InterfaceWorkspace* workspace, PartitionedState* state);
+
 }  // namespace nscdd

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "nlgs/sweep.h"
 #include "parallel/ordered_reduction.h"
+#include "problem/state.h"
 
 namespace nscdd {
 namespace {
@@ -123,38 +123,40 @@ void Anderson::Unpack(std::size_t e, PartitionedState* state) const {
   ComputeVelocity(problem_.subdomains[e], &s);
 }
 
-std::array<double, Anderson::kNumbers> Anderson::TakeImage(const PartitionedState& state) {
+Anderson::Products Anderson::TakeImage(const PartitionedState& state) {
+  // The slot that the newest df will have if it is kept: Keep() moves newest_ there. The first residual has no df.
   const int slot = has_residual_ ? (newest_ + 1) % depth_ : newest_;
   image_ = (image_ + 1) % (depth_ + 1);
-  std::vector<ReductionPart<kNumbers, 0>> sums(parts_.size());
+  std::vector<ReductionPart<Products>> sums(parts_.size());
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     Part& part = parts_[e];
     const std::size_t n = part.weight.size();
     double* g = part.images.data() + image_ * n;
     double* df = part.differences.data() + slot * n;
+    // f and df in one pass; `weighted` holds weight df, so that each product below reads two vectors and not three.
     Pack(e, state, g);
     Subtract(n, g, part.start.data(), part.weight.data(), part.residual.data(), df, part.weighted.data());
-    sums[e] = {};
     const int kept = has_residual_ ? std::min(count_ + 1, depth_) : 0;
     for (int age = 0; age < kept; ++age) {
       const int other = (slot + depth_ - age) % depth_;
-      sums[e][age] = Dot(part.weighted.data(), part.differences.data() + other * n, n);
+      sums[e].sum.df_df[age] = Dot(part.weighted.data(), part.differences.data() + other * n, n);
     }
-    sums[e][kNumbers - 2] = Dot(part.weighted.data(), part.residual.data(), n);
-    sums[e][kNumbers - 1] = WeightedNorm2(part.weight.data(), part.residual.data(), n);
+    sums[e].sum.df_f = Dot(part.weighted.data(), part.residual.data(), n);
+    sums[e].sum.f_f = WeightedNorm2(part.weight.data(), part.residual.data(), n);
   }
-  return ReduceInOrder<kNumbers, 0>(sums, communicator_);
+  return ReduceInOrder(sums, communicator_).sum;
 }
 
-void Anderson::Keep(const std::array<double, kNumbers>& products) {
+void Anderson::Keep(const Products& products) {
   newest_ = (newest_ + 1) % depth_;
   count_ = std::min(count_ + 1, depth_);
+  // <df_i, f> of the older i changes by <df_i, df>, since f has: no vector is read again.
   for (int age = 0; age < count_; ++age) {
     const int other = Slot(age);
-    gram_[newest_][other] = gram_[other][newest_] = products[age];
-    moments_[other] += products[age];  // <f + df, df_i>
+    gram_[newest_][other] = gram_[other][newest_] = products.df_df[age];
+    moments_[other] += products.df_df[age];  // <f + df, df_i>
   }
-  moments_[newest_] = products[kNumbers - 2];
+  moments_[newest_] = products.df_f;
 }
 
 void Anderson::Restart() {
@@ -171,6 +173,7 @@ std::vector<double> Anderson::Coefficients() const {
     for (int j = 0; j < count_; ++j) normal(i, j) = gram_[Slot(i)][Slot(j)];
     c(i) = moments_[Slot(i)];
   }
+  // Differences may be nearly parallel, above all with small residuals.
   normal.diagonal().array() += 1e-10 * normal.trace();
   normal.ldlt().solveInPlace(c);
   return {c.data(), c.data() + count_};
@@ -183,6 +186,7 @@ void Anderson::Combine(Part* part, const std::vector<double>& c) const {
   const double* g = part->images.data() + image_ * n;
   const double first = c.empty() ? 1.0 : 1.0 - c.front();
   for (std::size_t k = 0; k < n; ++k) s[k] = first * g[k];
+  // dg_i = g_i - g_(i+1), newest first: the coefficient of g_i is c_i less the one before it.
   for (std::size_t i = 0; i < c.size(); ++i) {
     const double a = c[i] - (i + 1 < c.size() ? c[i + 1] : 0.0);
     g = part->images.data() + ImageSlot(static_cast<int>(i) + 1) * n;
@@ -192,19 +196,20 @@ void Anderson::Combine(Part* part, const std::vector<double>& c) const {
 
 void Anderson::Extrapolate(int iteration, PartitionedState* state) {
   if (depth_ == 0 || iteration % every_ != 0) return;
-  const auto products = TakeImage(*state);
-  const double norm2 = products[kNumbers - 1];
+  // Safeguard first: a residual that has grown says that the differences mislead.
+  const Products products = TakeImage(*state);
   if (has_residual_) {
-    if (norm2 <= norm2_) {
+    if (products.f_f <= norm2_) {
       Keep(products);
     } else if (count_ > 0) {
       Restart();
     }
   }
   has_residual_ = true;
-  norm2_ = norm2;
+  norm2_ = products.f_f;
   const bool extrapolates = count_ > 0;
   const std::vector<double> c = extrapolates ? Coefficients() : std::vector<double>{};
+  // Without differences the next start is the image itself, which `state` is already.
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     Combine(&parts_[e], c);
     if (!extrapolates) continue;
@@ -213,7 +218,7 @@ void Anderson::Extrapolate(int iteration, PartitionedState* state) {
   }
   if (!extrapolates) return;
   ++extrapolations_;
-  if (gluing_ != nullptr) gluing_->SubtractImpulse(state->interface, &state->subdomains);
+  gluing_->SubtractImpulse(state->interface, &state->subdomains);
 }
 
 SolveReport Anderson::Close(SolveReport report) const {

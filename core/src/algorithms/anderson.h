@@ -15,8 +15,8 @@ namespace nscdd {
 
 /// Anderson acceleration (type II; Walker and Ni 2011) of the fixed point s -> g(s) that an iteration is, on the state
 ///     s = (r_E, F_E)   with   <a, b> = sum W_nn a_n b_n + W_tt a_t b_t + M~_E^-1 a_F b_F      (energies)
-/// F is accelerated with r: without it nothing is gained (math.md 10.6). With f = g - s and the differences df, dg of
-/// successive f and g, at most `depth` of them,
+/// F is accelerated with r: r alone, beside the F that belongs to another r, gains nothing. With f = g - s and the differences
+/// df, dg of successive f and g, at most `depth` of them,
 ///     next s = g - sum c_i dg_i,   c = argmin |f - sum c_i df_i|,   r then clipped to |r_t| <= mu r_n, r_n >= 0
 /// Safeguard: where |f| has grown the differences are forgotten and next s = g. The swept state g is what is measured and
 /// returned.
@@ -36,7 +36,11 @@ class Anderson {
   SolveReport Close(SolveReport report) const;
 
  private:
-  static constexpr std::size_t kNumbers = kMaxDepth + 2;
+  /// Of the newest df: <df, df_i> with itself and the older ones, <df, f>; and <f, f>.
+  struct Products {
+    std::array<double, kMaxDepth> df_df;
+    double df_f, f_f;
+  };
 
   /// One subdomain's vectors, of size n = impulses and interface impulses.
   struct Part {
@@ -52,9 +56,8 @@ class Anderson {
   void MakePart(std::size_t e);
   void Pack(std::size_t e, const PartitionedState& state, double* out) const;
   void Unpack(std::size_t e, PartitionedState* state) const;
-  /// Takes g; the products of the newest df with itself and the older ones, then <f, df>, <f, f>.
-  std::array<double, kNumbers> TakeImage(const PartitionedState& state);
-  void Keep(const std::array<double, kNumbers>& products);
+  Products TakeImage(const PartitionedState& state);
+  void Keep(const Products& products);
   std::vector<double> Coefficients() const;
   void Combine(Part* part, const std::vector<double>& c) const;
   void Restart();

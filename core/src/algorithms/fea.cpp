@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithm 2, the fully enriched algorithm, in the form of Algorithm 5: NSCDD whose stage 2 is the augmented interface
+// problem. n_GS > 1 is Algorithm 5's; the paper measures n_GS = 1. Lines below are those of Algorithm 2.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,8 @@
 namespace nscdd {
 namespace {
 
-/// Where the jump of the copies has more than doubled in five or more updates, lambda is too large for what n_GS sweeps undo:
-/// the next five updates are plain (lambda = 0), the next time ten, and so on.
+/// Not in the paper. Where the jump of the copies has more than doubled in five or more updates, lambda is too large for what
+/// n_GS sweeps undo: the next five updates are plain (lambda = 0), the next time ten, and so on.
 class JumpGuard {
  public:
   void Watch(int update, double jump) {
@@ -40,21 +42,22 @@ SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, 
   }
   Monitor monitor(problem, options.stopping, communicator, /*keep_best=*/true);
   Stages stages(problem, options.interface, communicator, workspace, state);
-  Anderson anderson(problem, options.acceleration, &stages.gluing(), communicator, *state);
+  Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   JumpGuard guard;
   int k = 1;
   for (;; ++k) {
-    stages.SweepSubdomains(options.sweeps_per_stage);  // stage 1
+    const bool due = monitor.IsDue(k);
+    stages.SweepSubdomains(options.sweeps_per_stage, due);  // stage 1, lines 2 and 3
     stages.MeasureJump();
-    if (monitor.IsDue(k)) {
+    if (due) {  // line 6, before stage 2: what is tested is what the sweeps left
       // Copies do not agree after an augmented stage 2, but their mean U = V_f + M^-1 sum_E H_E r_E is what is solved for.
       stages.SwapMeans();
       if (monitor.Stops(k, stages.statistics(), stages.jumps(), *state)) break;
       stages.SwapMeans();
       guard.Watch(k, monitor.residuals().interface_jump);
     }
-    stages.UpdateInterface(options.jump_guard && guard.IsPlain(k));  // stage 2
-    anderson.Extrapolate(k, state);
+    stages.UpdateInterface(options.jump_guard && guard.IsPlain(k));  // stage 2, lines 4 and 5: eq. (13)
+    anderson.Extrapolate(k, state);                                  // not in the paper
   }
   return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithm 4, the incomplete enriched algorithm: lines 4 to 16; the time stepper does the rest. polish_sweeps and
+// closing_updates are not in the paper.
 #include <algorithm>
 
 #include "algorithms/algorithms.h"
@@ -29,10 +31,10 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
                   InterfaceWorkspace* workspace, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator);
   Stages stages(problem, options.interface, communicator, workspace, state);
-  stages.SweepSubdomains(1);  // status of the contacts
+  stages.SweepSubdomains(1);  // lines 5, 6: the status of the contacts
   stages.MeasureJump();
-  stages.UpdateInterface();  // the one interface problem, explicit
-  const Stages::LocalResult local = stages.SolveSubdomains(options.stopping);
+  stages.UpdateInterface();  // lines 7, 8: the one interface problem, explicit
+  const Stages::LocalResult local = stages.SolveSubdomains(options.stopping);  // lines 9 to 16
   stages.MeasureJump();
 
   std::int64_t sweeps = 1 + local.sweeps;

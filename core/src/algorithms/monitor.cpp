@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "nlgs/local_solve.h"
-#include "nlgs/sweep.h"
 #include "parallel/ordered_reduction.h"
+#include "problem/contact_frame.h"
+#include "problem/state.h"
 
 namespace nscdd {
 namespace {
@@ -27,6 +28,25 @@ const char* Name(Criterion criterion) {
 
 bool SeesTheInterface(Criterion criterion) { return criterion == Criterion::kNat || criterion == Criterion::kNatMax; }
 
+/// What a test adds up and maximises over the subdomains: NaturalParts, SweepStatistics, JumpPart.
+struct MeasuredSums {
+  double e2, r2;
+  double active, dv2, dv2_r2, rwr, wr2;
+  double jump2, copies;
+};
+struct MeasuredMaxima {
+  double worst;
+  double dv, dv_r;
+};
+
+struct Counts {
+  double active, sticking, painleve;
+  double empty_subdomains, interface_bodies, interface_copies;
+};
+struct LargestMultiplicity {
+  double multiplicity;
+};
+
 template <class Row>
 void DescribeRows(const PartitionedProblem& problem, SolveReport* report) {
   report->unknowns_per_contact = Unknowns(Row::kModel);
@@ -34,6 +54,7 @@ void DescribeRows(const PartitionedProblem& problem, SolveReport* report) {
   report->bytes_per_contact = static_cast<int>(sizeof(Row) + Unknowns(Row::kModel) * sizeof(double));
   report->bytes_per_body = static_cast<int>((Dofs(Row::kModel) + Inertias(Row::kModel)) * sizeof(double));
   report->contacts = problem.contact_count;
+  report->subdomains = problem.subdomain_count;
 }
 
 void Describe(const PartitionedProblem& problem, SolveReport* report) {
@@ -54,36 +75,28 @@ Monitor::Monitor(const PartitionedProblem& problem, const StoppingOptions& optio
 
 void Monitor::MeasureAll(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
                          const PartitionedState& state) {
-  using Part = ReductionPart<9, 3>;
-  std::vector<Part> parts(problem_.subdomains.size());
+  std::vector<ReductionPart<MeasuredSums, MeasuredMaxima>> parts(problem_.subdomains.size());
   worst_ = {};
   for (std::size_t e = 0; e < parts.size(); ++e) {
+    // The copies agree now (or carry their mean): the residual is that of the whole problem, with whole masses.
     const NaturalParts n = NaturalResidual(problem_.subdomains[e], state.subdomains[e]);
     if (n.worst_contact >= 0 && Exceeds(n.worst, worst_.worst)) worst_ = n;
     const SweepStatistics& s = statistics[e];
     const JumpPart jump = jumps.empty() ? JumpPart{} : jumps[e];
-    parts[e] = {n.sum_e2,  n.sum_r2,         static_cast<double>(s.active),
-                s.sum_dv2, s.sum_dv2_r2,     s.sum_rwr,
-                s.sum_wr2, jump.sum_squares, jump.copies,
-                n.worst,   s.max_dv,         s.max_dv_r};
+    parts[e].sum = {n.sum_e2,         n.sum_r2,   static_cast<double>(s.active), s.sum_dv2, s.sum_dv2_r2, s.sum_rwr, s.sum_wr2,
+                    jump.sum_squares, jump.copies};
+    parts[e].max = {n.worst, s.max_dv, s.max_dv_r};
   }
-  const Part t = ReduceInOrder<9, 3>(parts, communicator_);
-  SweepStatistics total;
-  total.active = static_cast<std::int64_t>(t[2]);
-  total.sum_dv2 = t[3];
-  total.sum_dv2_r2 = t[4];
-  total.sum_rwr = t[5];
-  total.sum_wr2 = t[6];
-  total.max_dv = t[10];
-  total.max_dv_r = t[11];
+  const auto [sum, max] = ReduceInOrder(parts, communicator_);
+  const SweepStatistics total{static_cast<std::int64_t>(sum.active), sum.dv2, sum.dv2_r2, sum.rwr, sum.wr2, max.dv, max.dv_r};
   const StagnationMeasures stagnation = Stagnation(total, problem_.scales);
   Residuals& r = report_.residuals;
-  r.nat = Nat(t[0], t[1], problem_.scales);
-  r.nat_max = NatMax(t[9], problem_.scales);
+  r.nat = Nat(sum.e2, sum.r2, problem_.scales);
+  r.nat_max = NatMax(max.worst, problem_.scales);
   r.quad = stagnation.quad;
   r.maxm = stagnation.maxm;
   r.qm16 = stagnation.qm16;
-  r.interface_jump = t[8] > 0.0 ? std::sqrt(t[7] / t[8]) : 0.0;
+  r.interface_jump = sum.copies > 0.0 ? std::sqrt(sum.jump2 / sum.copies) : 0.0;
   // While no contact carries an impulse, the loads are the scale.
   const double scale = stagnation.quad_wr > 0.0 ? stagnation.quad_wr : problem_.scales.velocity;
   r.relative_jump = r.interface_jump == 0.0 ? 0.0 : scale > 0.0 ? r.interface_jump / scale : INFINITY;
@@ -148,6 +161,7 @@ const Residuals& Monitor::Measure(const std::vector<SweepStatistics>& statistics
 void Monitor::Conclude(bool subdomains_converged) {
   const double measure = CriterionNow();
   const char* name = Name(options_.criterion);
+  // An incomplete resolution ends by itself; what is left to say is how good it is.
   if (RunsAway() || !std::isfinite(measure)) {
     Stop(SolveStatus::kDiverged, fmt::format("{} is {:.3g}; nat_max is {:.3g} after {:.3g} at first", name, measure,
                                              report_.residuals.nat_max, first_nat_max_));
@@ -189,6 +203,7 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
     Stop(SolveStatus::kConverged, ReasonOfSuccess());
     return true;
   }
+  // A NaN never gets here: RunsAway() has seen it.
   if (measure < best_) {
     best_ = measure;
     best_iteration_ = iteration;
@@ -213,22 +228,20 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
 }
 
 void Monitor::CountContacts(const PartitionedState& state) {
-  // sums: active, sticking, Painleve, empty subdomains, interface bodies (counted by their lowest subdomain), copies
-  std::vector<ReductionPart<6, 1>> parts(problem_.subdomains.size());
+  std::vector<ReductionPart<Counts, LargestMultiplicity>> parts(problem_.subdomains.size());
   for (std::size_t e = 0; e < parts.size(); ++e) {
     const SubdomainProblem& p = problem_.subdomains[e];
-    auto& part = parts[e];
-    part = {};
-    part[3] = p.contact_count() == 0;
+    Counts& count = parts[e].sum;
+    count.empty_subdomains = p.contact_count() == 0;
     VisitRows(p, [&](const auto& rows) {
       using Row = typename std::decay_t<decltype(rows)>::value_type;
-      constexpr int kUnknowns = Unknowns(Row::kModel);
       const double* r = state.subdomains[e].impulse.data();
       for (const Row& c : rows) {
-        part[0] += r[0] > 0.0;
-        if constexpr (HasFriction(Row::kModel)) part[1] += r[0] > 0.0 && std::abs(r[1]) < c.friction * r[0];
-        if constexpr (Row::kModel == ContactModel::kFrictionArms) part[2] += IsPainleve(c);
-        r += kUnknowns;
+        const ContactStatus status = StatusOf(c, r);
+        count.active += status != ContactStatus::kOpen;
+        count.sticking += status == ContactStatus::kSticking;
+        if constexpr (Row::kModel == ContactModel::kFrictionArms) count.painleve += IsPainleve(c);
+        r += Unknowns(Row::kModel);
       }
     });
   }
@@ -237,18 +250,19 @@ void Monitor::CountContacts(const PartitionedState& state) {
   for (const auto& copy : map.copies) {
     while (copy.slot >= map.slot_begin[body + 1]) ++body;
     auto& part = parts[copy.problem];
-    part[4] += copy.slot == map.slot_begin[body];
-    part[5] += 1.0;
-    part[6] = std::max(part[6], static_cast<double>(map.slot_begin[body + 1] - map.slot_begin[body]));
+    part.sum.interface_bodies += copy.slot == map.slot_begin[body];  // counted by its lowest subdomain
+    part.sum.interface_copies += 1.0;
+    part.max.multiplicity =
+        std::max(part.max.multiplicity, static_cast<double>(map.slot_begin[body + 1] - map.slot_begin[body]));
   }
-  const auto t = ReduceInOrder<6, 1>(parts, communicator_);
-  report_.active = static_cast<std::int64_t>(t[0]);
-  report_.sticking = static_cast<std::int64_t>(t[1]);
-  report_.painleve_contacts = static_cast<int>(t[2]);
-  report_.empty_subdomains = static_cast<std::int64_t>(t[3]);
-  report_.interface_bodies = static_cast<std::int64_t>(t[4]);
-  report_.interface_copies = static_cast<std::int64_t>(t[5]);
-  report_.max_multiplicity = report_.contacts == 0 ? 0 : std::max(1, static_cast<int>(t[6]));
+  const auto [sum, max] = ReduceInOrder(parts, communicator_);
+  report_.active = static_cast<std::int64_t>(sum.active);
+  report_.sticking = static_cast<std::int64_t>(sum.sticking);
+  report_.painleve_contacts = static_cast<int>(sum.painleve);
+  report_.empty_subdomains = static_cast<std::int64_t>(sum.empty_subdomains);
+  report_.interface_bodies = static_cast<std::int64_t>(sum.interface_bodies);
+  report_.interface_copies = static_cast<std::int64_t>(sum.interface_copies);
+  report_.max_multiplicity = report_.contacts == 0 ? 0 : std::max(1, static_cast<int>(max.multiplicity));
 }
 
 /// Names the contact with the largest nat_max at the last measurement; of equal ones that of the lowest subdomain.
@@ -289,6 +303,7 @@ SolveReport ReportWithoutContacts(const PartitionedProblem& problem) {
   SolveReport report;
   report.reason = "no contact";
   Describe(problem, &report);
+  report.empty_subdomains = problem.subdomain_count;
   return report;
 }
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "interface/gluing.h"
+#include "nlgs/residual.h"
 #include "nscdd/communicator.h"
 #include "nscdd/options.h"
 #include "nscdd/report.h"

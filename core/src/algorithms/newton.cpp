@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Not in the paper: high accuracy with friction, one subdomain. An interior point stage, then proximal Newton steps.
 #include <algorithm>
 
 #include "algorithms/algorithms.h"
@@ -39,6 +40,7 @@ class NewtonSolve {
     const double scale = problem_.scales.velocity;
     if (scale == 0.0) return false;
     InteriorPoint<Row> interior(problem_.subdomains.front(), rows_, scale, &system_, &state_->subdomains.front());
+    // The stage ends when its residual is good enough for the next one, or has not fallen by a tenth in 30 iterations.
     double best = INFINITY;
     int best_at = 0;
     for (int k = 1; k <= options_.interior_iterations; ++k) {

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+// NonSmooth Contact Dynamics, the paper's reference: eq. (2) by nonlinear Gauss-Seidel, the whole sample in one subdomain.
 #include "algorithms/algorithms.h"
 #include "algorithms/anderson.h"
-#include "algorithms/monitor.h"
-#include "nlgs/sweep.h"
+#include "algorithms/stages.h"
 
 namespace nscdd {
 
 SolveReport Solve(const PartitionedProblem& problem, const NscdOptions& options, Communicator* communicator,
                   InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator, options.acceleration.method != Acceleration::kNone);
-  const SubdomainProblem& sample = problem.subdomains.front();
-  SubdomainState* iterate = &state->subdomains.front();
-  Anderson anderson(problem, options.acceleration, nullptr, communicator, *state);
+  Stages stages(problem, communicator, state);
+  Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   int k = 1;
   for (;; ++k) {
-    if (monitor.IsDue(k)) {
-      const std::vector<SweepStatistics> statistics{SweepWithStatistics(sample, iterate)};
-      if (monitor.Stops(k, statistics, {}, *state)) break;
-    } else {
-      Sweep(sample, iterate);
-    }
-    anderson.Extrapolate(k, state);
+    const bool due = monitor.IsDue(k);
+    stages.SweepSubdomains(1, due);
+    if (due && monitor.Stops(k, stages.statistics(), {}, *state)) break;
+    anderson.Extrapolate(k, state);  // not in the paper
   }
-  return anderson.Close(monitor.Finish(k, k, state));
+  return stages.Close(anderson.Close(monitor.Finish(k, k, state)));
 }
 
 }  // namespace nscdd

@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithm 1, NonSmooth Contact Domain Decomposition: the loop of lines 4 to 14; the time stepper does the rest. (How lines
+// are counted: core/README.md.)
 #include "algorithms/algorithms.h"
 #include "algorithms/anderson.h"
-#include "algorithms/monitor.h"
-#include "interface/gluing.h"
-#include "nlgs/sweep.h"
+#include "algorithms/stages.h"
 
 namespace nscdd {
 
 SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options, Communicator* communicator,
                   InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator, options.acceleration.method != Acceleration::kNone);
-  Gluing gluing(problem.subdomains, problem.interface, communicator);
-  Anderson anderson(problem, options.acceleration, &gluing, communicator, *state);
-  std::vector<SweepStatistics> statistics(problem.subdomains.size());
-  std::vector<JumpPart> jumps;
-  const int n_gs = options.sweeps_per_stage;
+  Stages stages(problem, communicator, state);
+  Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   int k = 1;
   for (;; ++k) {
     const bool due = monitor.IsDue(k);
-    // Stage 1, in every subdomain: n_GS sweeps with the interface impulses F_E fixed.
-    for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
-      for (int s = 1; s < n_gs; ++s) Sweep(problem.subdomains[e], &state->subdomains[e]);
-      if (due) {
-        statistics[e] = SweepWithStatistics(problem.subdomains[e], &state->subdomains[e]);
-      } else {
-        Sweep(problem.subdomains[e], &state->subdomains[e]);
-      }
-    }
-    // Stage 2, on the interface:  X dF = [V],  F += dF.
-    gluing.Measure(state->subdomains, &jumps);
-    gluing.Glue(&state->subdomains, &state->interface);
-    if (due && monitor.Stops(k, statistics, jumps, *state)) break;
-    anderson.Extrapolate(k, state);
+    // Stage 1, lines 5 to 10. V_E carries -M~_E^-1 F_E already (lines 6, 7), and the sweeps keep it (line 11).
+    stages.SweepSubdomains(options.sweeps_per_stage, due);
+    // Stage 2, lines 12 and 13:  X dF = [V],  F += dF, which amounts to the mean over the copies.
+    stages.MeasureJump();
+    stages.UpdateInterface();
+    if (due && monitor.Stops(k, stages.statistics(), stages.jumps(), *state)) break;  // line 4
+    anderson.Extrapolate(k, state);                                                   // not in the paper
   }
-  SolveReport report = anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * n_gs, state));
-  report.interface_updates = k;
-  return report;
+  return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));
 }
 
 }  // namespace nscdd

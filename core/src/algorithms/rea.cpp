@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithm 3, the relaxed enriched algorithm: both stages until the interface has converged, then each subdomain by itself.
 #include "algorithms/algorithms.h"
 #include "algorithms/stages.h"
 
@@ -8,10 +9,10 @@ SolveReport Solve(const PartitionedProblem& problem, const ReaOptions& options, 
                   InterfaceWorkspace* workspace, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator);
   Stages stages(problem, options.interface, communicator, workspace, state);
-  // Both stages until the interface converges: It2 iterations. The test sees the jump only.
+  // Lines 1 to 9, It2 iterations. The test of line 6 sees the jump only.
   int it2 = 1;
   for (;; ++it2) {
-    stages.SweepSubdomains(options.sweeps_per_stage);
+    stages.SweepSubdomains(options.sweeps_per_stage);  // lines 2, 3
     stages.MeasureJump();
     if (it2 % options.stopping.test_every == 0) {
       stages.SwapMeans();
@@ -19,10 +20,10 @@ SolveReport Solve(const PartitionedProblem& problem, const ReaOptions& options, 
       stages.SwapMeans();
       if (eta <= options.stopping.tolerance || monitor.RunsAway()) break;
     }
-    stages.UpdateInterface();
+    stages.UpdateInterface();  // lines 4, 5
     if (it2 >= options.max_interface_updates) break;
   }
-  // Then the subdomains by themselves: It3 iterations.
+  // Lines 10 to 16, It3 iterations: the interface impulses stay as they are.
   const Stages::LocalResult local = stages.SolveSubdomains(options.stopping);
   stages.MeasureJump();
   stages.SwapMeans();

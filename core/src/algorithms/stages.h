@@ -16,12 +16,14 @@ namespace nscdd {
 /// The two stages that every algorithm of the paper is made of; a schedule says when which is done.
 class Stages {
  public:
-  /// lambda = 0, or one subdomain: no augmented operator is built.
+  /// The plain interface, X dF = [V].
+  Stages(const PartitionedProblem& problem, Communicator* communicator, PartitionedState* state);
+  /// The augmented one; lambda = 0, or one subdomain: the plain one, no operator is built.
   Stages(const PartitionedProblem& problem, const AugmentedInterfaceOptions& options, Communicator* communicator,
          InterfaceWorkspace* workspace, PartitionedState* state);
 
-  /// Stage 1: `sweeps` NLGS sweeps in every subdomain with F_E fixed. The last one fills statistics().
-  void SweepSubdomains(int sweeps);
+  /// Stage 1: `sweeps` NLGS sweeps in every subdomain with F_E fixed. The last one fills statistics() if `measured`, at a cost.
+  void SweepSubdomains(int sweeps, bool measured = true);
   /// U and the jumps of the copies.
   void MeasureJump() { gluing_.Measure(state_->subdomains, &jumps_); }
   /// Stage 2, after MeasureJump(): X_lambda F = ..., or X dF = [V] where lambda is zero or `plain`.
@@ -38,7 +40,7 @@ class Stages {
   };
   LocalResult SolveSubdomains(const StoppingOptions& stopping);
 
-  const Gluing& gluing() const { return gluing_; }
+  const Gluing* gluing() const { return &gluing_; }
   const std::vector<SweepStatistics>& statistics() const { return statistics_; }
   const std::vector<JumpPart>& jumps() const { return jumps_; }
 
@@ -53,7 +55,7 @@ class Stages {
   PartitionedState* state_;
   Gluing gluing_;
   std::unique_ptr<AugmentedInterface> augmented_;
-  bool is_direct_;
+  bool is_direct_ = true;
   std::vector<SweepStatistics> statistics_;
   std::vector<JumpPart> jumps_;
   std::vector<std::vector<double>> left_;  // tangential velocities that the local solves left

@@ -67,6 +67,7 @@ void AugmentedInterface::Update(const Gluing& gluing, const std::vector<std::vec
   const auto left_of = [&](std::size_t e) {
     return left.empty() ? std::span<const double>{} : std::span<const double>(left[e]);
   };
+  // The contacts that are active now decide about the columns of G_E, and with them about the matrix.
   std::vector<std::vector<double>> y;
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     parts_[e].ChooseColumns(state->subdomains[e]);
@@ -79,6 +80,7 @@ void AugmentedInterface::Update(const Gluing& gluing, const std::vector<std::vec
     const std::vector<std::vector<double>> solution = direct_->Solve(y);
     for (std::size_t e = 0; e < parts_.size(); ++e)
       y[e] = parts_[e].ImpulseChange(state->subdomains[e], left_of(e), solution[e]);
+    // Of the change on all nodes only that on the copies is an interface impulse: inside, V~ obeys the balance.
     for (std::size_t k = 0; k < map.copies.size(); ++k) {
       const auto& copy = map.copies[k];
       const double* from = &y[copy.problem][dofs * parts_[copy.problem].NodeOf(copy.body)];

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "nlgs/contact_frame.h"
+#include "problem/contact_frame.h"
 
 namespace nscdd {
 
@@ -37,6 +37,7 @@ void AugmentedSubdomain::MakeColumns(const std::vector<Row>& rows, LambdaScale s
   constexpr int kInertias = Inertias(Row::kModel);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Row& c = rows[k];
+    // Lambda does not depend on the cuts: with kContact it is measured by the undivided W_nn.
     const auto share = [&](std::int32_t copy) {
       return problem_.multiplicity.empty() ? 1.0 : 1.0 / problem_.multiplicity[copy];
     };
@@ -61,19 +62,19 @@ void AugmentedSubdomain::MakeColumns(const std::vector<Row>& rows, LambdaScale s
 }
 
 void AugmentedSubdomain::ChooseColumns(const SubdomainState& state) {
-  const int unknowns = Unknowns(problem_.model);
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    Column& c = columns_[k];
-    const double* r = &state.impulse[unknowns * c.contact];
-    bool on = r[0] > 0.0;
-    if (!c.is_normal) {
-      const double friction =
-          HasArms(problem_.model) ? problem_.friction_arms[c.contact].friction : problem_.friction[c.contact].friction;
-      c.is_known = std::abs(r[1]) < friction * r[0];  // sticks: no velocity left
-      if (compatibility_ == Compatibility::kSticking) on = on && c.is_known;
+  VisitRows(problem_, [&](const auto& rows) {
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      Column& c = columns_[k];
+      const ContactStatus status = StatusOf(rows[c.contact], &state.impulse[Unknowns(Row::kModel) * c.contact]);
+      bool on = status != ContactStatus::kOpen;
+      if (!c.is_normal) {
+        c.is_known = status == ContactStatus::kSticking;  // no velocity left
+        if (compatibility_ == Compatibility::kSticking) on = on && c.is_known;
+      }
+      c.weight = on ? full_weight_[k] : 0.0;
     }
-    c.weight = on ? full_weight_[k] : 0.0;
-  }
+  });
 }
 
 void AugmentedSubdomain::AppendPattern(std::span<const std::int32_t> number, std::vector<std::int32_t>* row,
@@ -106,6 +107,7 @@ void AugmentedSubdomain::AppendValues(std::span<const std::int32_t> number, std:
   for (int i = 0; i < nodes(); ++i) {
     for (int p = 0; p < dofs_; ++p) values->push_back(MassOf(i, p));
   }
+  // The order is that of AppendPattern(): masses, then for each contact the blocks of A, of B, and between them.
   const std::size_t per_contact = compatibility_ == Compatibility::kNormal || !HasFriction(problem_.model) ? 1 : 2;
   for (std::size_t k = 0; k < columns_.size(); k += per_contact) {
     const Column* c = &columns_[k];

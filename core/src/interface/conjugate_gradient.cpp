@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "parallel/agreement.h"
+#include "nscdd/agreement.h"
 #include "parallel/ordered_reduction.h"
 
 namespace nscdd {
@@ -22,6 +22,7 @@ AugmentedInterface::ConjugateGradient::ConjugateGradient(const PartitionedProble
       workspace_(workspace),
       dofs_(parts.front().dofs()),
       average_(problem.interface, dofs_, communicator) {
+  // Solvers outlive a step, so that equal patterns are analysed once.
   while (workspace_->local.size() < parts.size()) {
     workspace_->local.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.linear_solver), communicator));
   }
@@ -29,6 +30,7 @@ AugmentedInterface::ConjugateGradient::ConjugateGradient(const PartitionedProble
   while (workspace_->interior.size() < parts.size()) {
     workspace_->interior.push_back(std::make_unique<KeptSolver>(MakeLocalSolver(options.linear_solver), communicator));
   }
+  // Number the nodes inside: those that are no copy of an interface body.
   for (std::size_t e = 0; e < parts.size(); ++e) interior_.emplace_back(parts[e].nodes(), 0);
   for (const auto& copy : problem.interface.copies) interior_[copy.problem][parts[copy.problem].NodeOf(copy.body)] = -1;
   for (auto& numbers : interior_) {
@@ -139,18 +141,16 @@ std::vector<double> AugmentedInterface::ConjugateGradient::Precondition(const st
 
 AugmentedInterface::ConjugateGradient::Products AugmentedInterface::ConjugateGradient::Reduce(
     const std::vector<double>& r, const std::vector<double>& z, const std::vector<double>& w) const {
-  std::vector<ReductionPart<3, 0>> parts(parts_.size());
-  for (auto& part : parts) part = {};
+  std::vector<ReductionPart<Products>> parts(parts_.size());
   for (std::size_t k = 0; k < problem_.interface.copies.size(); ++k) {
-    auto& part = parts[problem_.interface.copies[k].problem];
+    Products& part = parts[problem_.interface.copies[k].problem].sum;
     for (std::size_t i = dofs_ * k; i < dofs_ * (k + 1); ++i) {
-      part[0] += r[i] * z[i];
-      part[1] += w[i] * z[i];
-      part[2] += r[i] * r[i];
+      part.rz += r[i] * z[i];
+      part.wz += w[i] * z[i];
+      part.rr += r[i] * r[i];
     }
   }
-  const auto t = ReduceInOrder<3, 0>(parts, communicator_);
-  return {t[0], t[1], t[2]};
+  return ReduceInOrder(parts, communicator_).sum;
 }
 
 std::vector<double> AugmentedInterface::ConjugateGradient::Solve(const std::vector<std::vector<double>>& y) {
@@ -187,6 +187,7 @@ void AugmentedInterface::ConjugateGradient::Iterate(double target, std::vector<d
   for (bool first = true;; first = false, ++iterations_) {
     const std::vector<double> z = Precondition(*res);
     const std::vector<double> w = ApplyInverse(z);
+    // Chronopoulos and Gear: z, w = X_lambda z and the three products at once; s = X_lambda p follows by recurrence.
     const Products t = Reduce(*res, z, w);
     if (std::sqrt(t.rr) <= target) return;
     if (iterations_ >= options_.cg_max_iterations || !(t.rz > 0.0)) return;

@@ -16,6 +16,7 @@ void CopyAverage::FillSlots(const std::vector<double>& values) {
     for (int d = 0; d < dofs_; ++d) slots_[dofs_ * map_.copies[k].slot + d] = values[dofs_ * k + d];
   }
   if (map_.neighbours.empty()) return;
+  // Each pair of ranks exchanges the slots that the other one lacks.
   std::vector<Communicator::Outgoing> outgoing;
   std::vector<Communicator::Incoming> incoming;
   for (std::size_t i = 0; i < map_.neighbours.size(); ++i) {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "interface/interface_map.h"
 #include "nscdd/communicator.h"
+#include "problem/interface_map.h"
 
 namespace nscdd {
 

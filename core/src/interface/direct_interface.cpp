@@ -27,6 +27,7 @@ void AugmentedInterface::Direct::NumberNodes(const PartitionedProblem& problem) 
   }
   std::vector<std::int64_t> all;
   for (const double bits : Gather(mine)) all.push_back(std::bit_cast<std::int64_t>(bits));
+  // Every rank numbers all bodies alike.
   std::vector<std::int64_t> ids = all;
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -75,6 +76,7 @@ std::vector<std::vector<double>> AugmentedInterface::Direct::Solve(const std::ve
   for (const auto& part : y) mine.insert(mine.end(), part.begin(), part.end());
   const std::vector<double> all = Gather(mine);
   std::vector<double> x(unknowns_);
+  // Copies of one body have one number: their right-hand sides are added, in the order of the subdomains.
   for (std::size_t i = 0; i < all_numbers_.size(); ++i) {
     for (int d = 0; d < dofs_; ++d) x[dofs_ * all_numbers_[i] + d] += all[dofs_ * i + d];
   }

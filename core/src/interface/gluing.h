@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "interface/copy_average.h"
-#include "interface/interface_map.h"
 #include "nscdd/communicator.h"
+#include "problem/interface_map.h"
+#include "problem/partitioned_problem.h"
 
 namespace nscdd {
-
-/// Interface impulses F_E, stored per copy (zero sum over the copies of a body), never as multipliers: no chain of copies, no
-/// signs, no rank deficiency. Empty without an interface.
-struct InterfaceState {
-  std::vector<double> impulse;  ///< Dofs per copy of InterfaceMap::copies
-};
 
 /// Jump of one subdomain's copies, V_E - U, before they were glued.
 struct JumpPart {
@@ -22,7 +17,7 @@ struct JumpPart {
 };
 
 /// Stage 2 of NSCDD: the gluing operator X = sum A M~^-1 A^T is block diagonal, and  X dF = [V]  amounts to
-///     U = mean over the copies of V_E,   dF_E = M~_E (V_E - U),   V_E := U      (sum_E dF_E = 0 exactly, math.md section 5).
+///     U = mean over the copies of V_E,   dF_E = M~_E (V_E - U),   V_E := U      (sum_E dF_E = 0).
 class Gluing {
  public:
   Gluing(const std::vector<SubdomainProblem>& problems, const InterfaceMap& map, Communicator* communicator);

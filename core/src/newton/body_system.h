@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "newton/block_factor.h"
-#include "nlgs/contact_frame.h"
+#include "problem/contact_frame.h"
 #include "problem/subdomain_problem.h"
 
 namespace nscdd {

@@ -7,6 +7,7 @@
 
 #include "newton/body_system.h"
 #include "nlgs/sweep.h"
+#include "problem/state.h"
 
 namespace nscdd {
 

@@ -9,6 +9,7 @@
 #include "newton/body_system.h"
 #include "nlgs/residual.h"
 #include "nlgs/sweep.h"
+#include "problem/state.h"
 
 namespace nscdd {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nlgs/contact_frame.h"
+#include "problem/contact_frame.h"
 
 namespace nscdd {
 
@@ -35,9 +35,11 @@ inline Local SolveLocal(const FrictionArmsRow& c, Local r, Local v) {
   const double qn = v.n + c.offset - c.wnn * r.n - c.wnt * r.t;
   const double qt = v.t - c.wnt * r.n - c.wtt * r.t;
   if (qn >= 0.0) return {};
+  // Sticking: W r = -q in both components.
   const double determinant = c.wnn * c.wtt - c.wnt * c.wnt;
   const Local stick{(c.wnt * qt - c.wtt * qn) / determinant, (c.wnt * qn - c.wnn * qt) / determinant};
   if (stick.n >= 0.0 && std::abs(stick.t) <= c.friction * stick.n) return stick;
+  // Sliding with r_t = -sign mu r_n: the normal equation gives r_n, and v_t must have that sign.
   for (const double sign : {1.0, -1.0}) {
     const double d = c.wnn + sign * c.friction * c.wnt;
     if (d <= 0.0) continue;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nlgs/contact_frame.h"
 #include "parallel/ordered_reduction.h"
+#include "problem/contact_frame.h"
 
 namespace nscdd {
 namespace {
@@ -32,6 +32,7 @@ double Friction(const Row& c) {
 
 /// Adds one contact; returns its error in velocity units.
 double AddContact(const Delassus& w, double offset, double mu, Local r, Local v, NaturalParts* parts) {
+  // De Saxce's shift mu |v_t| of the normal velocity makes the law of friction a projection on one cone.
   const double gap_speed = v.n + offset;
   const double rho = 1.0 / (mu > 0.0 ? std::max(w.nn, w.tt) : w.nn);
   const Local p = ProjectOnCone({r.n - rho * (gap_speed + mu * std::abs(v.t)), mu > 0.0 ? r.t - rho * v.t : 0.0}, mu);
@@ -51,6 +52,7 @@ void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const Subd
   const double* impulse = state.impulse.data();
   for (std::size_t k = 0; k < rows.size(); ++k, impulse += kUnknowns) {
     const Row& c = rows[k];
+    // Whole masses from divided ones: 1/M = (m_i/M) / m_i.
     const double share_a = kShared ? 1.0 / p.multiplicity[c.a] : 1.0;
     const double share_b = kShared ? 1.0 / p.multiplicity[c.b] : 1.0;
     const Delassus w = DelassusBlock(c, &p.inverse_mass[kInertias * c.a], &p.inverse_mass[kInertias * c.b], share_a, share_b);

@@ -6,16 +6,9 @@
 #include "nlgs/sweep.h"
 #include "nscdd/options.h"
 #include "nscdd/report.h"
-#include "problem/subdomain_problem.h"
+#include "problem/partitioned_problem.h"
 
 namespace nscdd {
-
-/// Scales of the residuals; properties of the whole problem, the same on all ranks.
-struct ResidualScales {
-  double impulse = 0.0;   ///< ||dt f||_2 over free bodies, translations [N s]
-  double velocity = 0.0;  ///< max(largest |f| dt / m, largest approach speed, largest -b_n) [m/s]
-  double energy = 0.0;    ///< sum of |dt f|^2 / m [J]
-};
 
 /// Parts of one subdomain of the natural residuals, taken on the GLOBAL problem (undivided masses) once the copies agree:
 ///     e_c = r_c - P_K(r_c - rho_c (v_n + b_n + mu |v_t|, v_t)),   rho_c = 1 / max(W_nn, W_tt)  (1 / W_nn without friction)

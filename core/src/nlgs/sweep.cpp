@@ -39,11 +39,6 @@ void Accumulate(const Row& c, Local before, Local after, SweepStatistics* s) {
   s->max_dv_r = std::max(s->max_dv_r, std::sqrt(dv2 * r2));
 }
 
-template <class Row>
-Local ImpulseOf(const double* impulse) {
-  return {impulse[0], HasFriction(Row::kModel) ? impulse[Unknowns(Row::kModel) - 1] : 0.0};
-}
-
 /// One local solve; returns the velocity before it.
 template <class Row>
 Local SolveContact(const Row& c, const double* inverse_mass, double* velocity, double* impulse) {
@@ -112,21 +107,6 @@ void SweepSome(const SubdomainProblem& problem, const std::vector<std::int32_t>&
     using Row = typename std::decay_t<decltype(rows)>::value_type;
     for (const std::int32_t k : positions) {
       SolveContact(rows[k], problem.inverse_mass.data(), state->velocity.data(), &state->impulse[Unknowns(Row::kModel) * k]);
-    }
-  });
-}
-
-void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state) {
-  state->velocity = problem.free_velocity;
-  VisitRows(problem, [&](const auto& rows) {
-    using Row = typename std::decay_t<decltype(rows)>::value_type;
-    constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
-    const double* r = state->impulse.data();
-    const double* inverse = problem.inverse_mass.data();
-    double* v = state->velocity.data();
-    for (const Row& c : rows) {
-      AddImpulse(c, ImpulseOf<Row>(r), inverse + kInertias * c.a, inverse + kInertias * c.b, v + kDofs * c.a, v + kDofs * c.b);
-      r += kUnknowns;
     }
   });
 }

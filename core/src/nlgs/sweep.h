@@ -34,7 +34,4 @@ SweepStatistics SweepRecording(const SubdomainProblem& problem, SubdomainState* 
 /// One sweep over the contacts with the given positions only, in their order.
 void SweepSome(const SubdomainProblem& problem, const std::vector<std::int32_t>& positions, SubdomainState* state);
 
-/// V_E := V_f + M~^-1 H r  (F_E is subtracted by the interface).
-void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state);
-
 }  // namespace nscdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "parallel/agreement.h"
+#include "nscdd/agreement.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@ namespace nscdd {
 
 void RunTogether(Communicator* communicator, const std::function<void()>& work) {
   if (communicator->size() == 1) return work();
+  // The lowest rank that failed speaks for all.
   bool failed = true;
   std::string sentence;
   try {
@@ -22,9 +23,9 @@ void RunTogether(Communicator* communicator, const std::function<void()>& work) 
   } catch (...) {
     sentence = "an unknown exception was thrown";
   }
-  double culprit = failed ? communicator->rank() : communicator->size();
-  communicator->AllReduceMin({&culprit, 1});
-  const int root = static_cast<int>(culprit);
+  double failing = failed ? communicator->rank() : communicator->size();
+  communicator->AllReduceMin({&failing, 1});
+  const int root = static_cast<int>(failing);
   if (root == communicator->size()) return;
   std::vector<std::byte> bytes(sentence.size());
   if (!sentence.empty()) std::memcpy(bytes.data(), sentence.data(), sentence.size());

@@ -107,6 +107,7 @@ std::vector<Message> MpiCommunicator::Deliver(std::vector<Message> outgoing) {
   MPI_Request barrier = MPI_REQUEST_NULL;
   bool in_barrier = false;
   for (int done = 0; !done;) {
+    // Receive whatever has come, and see how far one's own sends are.
     int arrived = 0;
     MPI_Status status;
     Check(MPI_Iprobe(MPI_ANY_SOURCE, tag, comm_, &arrived, &status), "MPI_Iprobe");
@@ -136,6 +137,7 @@ void MpiCommunicator::Exchange(std::span<const Outgoing> outgoing, std::span<con
   const Stopwatch watch(&counters_.seconds);
   std::vector<MPI_Request> requests;
   requests.reserve(outgoing.size() + incoming.size());
+  // Receives first: a message that finds its buffer is not copied.
   for (const Incoming& from : incoming) {
     Check(MPI_Irecv(from.values.data(), Count(from.values.size()), MPI_DOUBLE, from.rank, kTagExchange, comm_,
                     &requests.emplace_back()),

@@ -25,6 +25,7 @@ class Grid {
   int cells() const { return nx_ * ny_; }
   Vec2 low() const { return low_; }
   Vec2 high() const { return high_; }
+  double period() const { return period_; }  ///< [m] 0: none
 
   int CellOf(Vec2 point) const;
 
@@ -32,6 +33,7 @@ class Grid {
   template <class Function>
   void ForEachCellNear(Vec2 point, double reach, Function&& f) const {
     const int y0 = Index(point.y - reach, low_.y, height_, ny_), y1 = Index(point.y + reach, low_.y, height_, ny_);
+    // Across the ends of a period the cells go on from the other side; a reach of nearly the period meets all.
     int x0 = 0, x1 = nx_ - 1;
     if (period_ == 0.0) {
       x0 = Index(point.x - reach, low_.x, width_, nx_);
@@ -48,6 +50,7 @@ class Grid {
 
   /// x moved by whole periods into [origin, origin + period); unchanged without a period.
   double Wrap(double x) const;
+  Pose Wrapped(const Pose& q) const { return {Wrap(q.x), q.y, q.angle}; }
 
  private:
   static int Index(double x, double low, double width, int count);
@@ -63,8 +66,9 @@ class Blocks {
  public:
   Blocks() = default;
   Blocks(int subdomains, int ranks) : subdomains_(subdomains), ranks_(ranks) {}
+  int subdomains() const { return subdomains_; }
   int First(int rank) const { return static_cast<int>(static_cast<std::int64_t>(rank) * subdomains_ / ranks_); }
-  int Last(int rank) const { return First(rank + 1); }  ///< one behind
+  int Count(int rank) const { return First(rank + 1) - First(rank); }
   int RankOf(int subdomain) const {
     return static_cast<int>((static_cast<std::int64_t>(subdomain + 1) * ranks_ - 1) / subdomains_);
   }

@@ -2,11 +2,15 @@
 #include "partition/sharing.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <utility>
+
+#include "parallel/bytes.h"
 
 namespace nscdd {
 
-Sharing MakeSharing(std::size_t rows, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) {
+Sharing MakeSharing(std::size_t rows, const SubdomainPairs& pairs) {
   Sharing sharing;
   sharing.begin.assign(rows + 1, 0);
   for (const auto& [row, subdomain] : pairs) ++sharing.begin[row + 1];
@@ -26,6 +30,33 @@ Sharing MakeSharing(std::size_t rows, const std::vector<std::pair<std::int32_t, 
   sharing.begin[rows] = static_cast<std::int32_t>(out - sharing.subdomain.begin());
   sharing.subdomain.erase(out, sharing.subdomain.end());
   return sharing;
+}
+
+Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Communicator* communicator) {
+  Sharing mine = MakeSharing(population.size(), pairs);
+  if (communicator->size() == 1) return mine;
+  // What our subdomains touch is told to every rank that holds the body.
+  std::map<int, std::vector<std::byte>> parcels;
+  for (std::size_t row = 0; row < population.size(); ++row) {
+    for (const int rank : population.holders[row]) {
+      if (rank == communicator->rank()) continue;
+      for (const std::int32_t subdomain : mine.Of(row)) {
+        ByteWriter out(&parcels[rank]);
+        out.Put(population.bodies.id[row]);
+        out.Put(subdomain);
+      }
+    }
+  }
+  std::vector<Message> outgoing;
+  for (auto& [rank, bytes] : parcels) outgoing.push_back({rank, std::move(bytes)});
+  for (const Message& message : communicator->Deliver(std::move(outgoing))) {
+    for (ByteReader in(message.bytes); !in.empty();) {
+      const auto id = in.Get<std::int64_t>();
+      const auto subdomain = in.Get<std::int32_t>();
+      pairs.emplace_back(static_cast<std::int32_t>(population.RowOf(id)), subdomain);
+    }
+  }
+  return MakeSharing(population.size(), pairs);
 }
 
 }  // namespace nscdd

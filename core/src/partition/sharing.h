@@ -6,6 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "nscdd/communicator.h"
+#include "partition/population.h"
+
 namespace nscdd {
 
 /// Which subdomains hold a contact of each body of a rank's table: for row i, ascending numbers. Their count is the
@@ -20,7 +23,13 @@ struct Sharing {
   int Multiplicity(std::size_t row) const { return begin[row + 1] - begin[row]; }
 };
 
-/// From pairs (row, subdomain) in any order, repeated or not.
-Sharing MakeSharing(std::size_t rows, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
+/// (row of a body, number of a subdomain that touches it).
+using SubdomainPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// From pairs in any order, repeated or not.
+Sharing MakeSharing(std::size_t rows, const SubdomainPairs& pairs);
+
+/// Completes the pairs of this rank's contacts to the sharing of all bodies that it holds. Collective.
+Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Communicator* communicator);
 
 }  // namespace nscdd

@@ -5,7 +5,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "nlgs/contact_frame.h"
+#include "nscdd/contact_kinematics.h"
+#include "problem/contact_frame.h"
 
 namespace nscdd {
 namespace {
@@ -23,8 +24,7 @@ ContactModel RequiredModel(const ProblemTables& tables) {
            (tables.inverse_mass[contacts.b[c]] > 0.0 && (b.x != 0.0 || b.y != 0.0));
   }
   const bool friction = std::any_of(contacts.friction.begin(), contacts.friction.end(), [](double mu) { return mu > 0.0; });
-  if (friction) return arms ? ContactModel::kFrictionArms : ContactModel::kFriction;
-  return arms ? ContactModel::kNormalArms : ContactModel::kNormal;
+  return ModelWith(friction, arms);
 }
 
 SubdomainBuilder::SubdomainBuilder(const ProblemTables& tables, ContactModel model)
@@ -39,6 +39,7 @@ std::int32_t SubdomainBuilder::CopyOf(std::int32_t body, Vec2 arm, SubdomainProb
   const Twist& v = tables_.free_velocity[body];
   const bool prescribed = tables_.inverse_mass[body] == 0.0;
   const bool own_copy = prescribed && v.spin != 0.0;
+  // A prescribed body that turns moves every touching point otherwise: one copy per contact, without any spin.
   if (!own_copy && copy_of_row_[body] >= 0) return copy_of_row_[body];
 
   const auto copy = static_cast<std::int32_t>(problem->body.size());
@@ -58,24 +59,23 @@ std::int32_t SubdomainBuilder::CopyOf(std::int32_t body, Vec2 arm, SubdomainProb
 template <class Row>
 Row SubdomainBuilder::MakeRow(std::int32_t contact, SubdomainProblem* problem) {
   const ContactTable& table = *tables_.contacts;
-  const Vec2 n = table.normal[contact], t{n.y, -n.x};
-  const Vec2 arm_a = ArmOf(table.arm_a, contact), arm_b = ArmOf(table.arm_b, contact);
-  const double lever_a = table.lever_a[contact], lever_b = table.lever_b[contact];
+  const ContactKinematics h = KinematicsOf(table, contact);
   Row row{};
-  row.a = CopyOf(table.a[contact], arm_a + lever_a * n, problem);
-  row.b = CopyOf(table.b[contact], arm_b - lever_b * n, problem);
-  row.n = n;
+  row.a = CopyOf(table.a[contact], ArmOf(table.arm_a, contact) + table.lever_a[contact] * h.n, problem);
+  row.b = CopyOf(table.b[contact], ArmOf(table.arm_b, contact) - table.lever_b[contact] * h.n, problem);
+  row.n = h.n;
   row.offset = tables_.offset[contact];
   if constexpr (HasArms(Row::kModel)) {
-    row.turn_na = Cross(arm_a, n);
-    row.turn_nb = Cross(arm_b, n);
+    row.turn_na = h.turn_na;
+    row.turn_nb = h.turn_nb;
   }
   if constexpr (HasFriction(Row::kModel)) {
-    row.turn_ta = Cross(arm_a, t) - lever_a;
-    row.turn_tb = Cross(arm_b, t) + lever_b;
+    row.turn_ta = h.turn_ta;
+    row.turn_tb = h.turn_tb;
     row.friction = table.friction[contact];
   }
   constexpr int kInertias = Inertias(Row::kModel);
+  // The law is solved with the divided masses; where W_nt = 0 the inverses are what a sweep needs.
   const Delassus w = DelassusBlock(row, &problem->inverse_mass[kInertias * row.a], &problem->inverse_mass[kInertias * row.b]);
   if constexpr (Row::kModel == ContactModel::kFrictionArms) {
     row.wnn = w.nn;

@@ -18,6 +18,10 @@ enum class ContactModel {
   kFrictionArms  ///< clusters with friction: (r_n, r_t); W_nt != 0
 };
 
+constexpr ContactModel ModelWith(bool friction, bool arms) {
+  if (friction) return arms ? ContactModel::kFrictionArms : ContactModel::kFriction;
+  return arms ? ContactModel::kNormalArms : ContactModel::kNormal;
+}
 constexpr bool HasFriction(ContactModel m) { return m == ContactModel::kFriction || m == ContactModel::kFrictionArms; }
 constexpr bool HasArms(ContactModel m) { return m == ContactModel::kNormalArms || m == ContactModel::kFrictionArms; }
 /// Velocity components of a body.

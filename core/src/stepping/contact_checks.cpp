@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "nscdd/error.h"
-#include "stepping/impulse_cache.h"
 
 namespace nscdd {
 namespace {
@@ -47,6 +46,7 @@ void CheckBodies(const BodyTable& t, const AdapterDescription& adapter) {
     if (!(t.radius[i] >= 0.0) || !std::isfinite(t.radius[i]) || !(t.bounding_radius[i] >= t.radius[i])) {
       refuse(i, "a radius that is negative or not finite, or a bounding radius below it");
     }
+    // Of prescribed bodies mass, inertia and load are not read.
     if (t.kind[i] != BodyKind::kFree) {
       const Twist& v = t.velocity[i];
       if (!adapter.prescribed_motion && (v.vx != 0.0 || v.vy != 0.0 || v.spin != 0.0)) {
@@ -63,9 +63,7 @@ void CheckBodies(const BodyTable& t, const AdapterDescription& adapter) {
 
 void CheckDrift(const BodyTable& t, double half, const AdapterDescription& adapter) {
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const Pose& q = t.pose[i];
-    const Twist& v = t.velocity[i];
-    if (IsFinite(Pose{q.x + half * v.vx, q.y + half * v.vy, q.angle + half * v.spin})) continue;
+    if (IsFinite(Moved(t.pose[i], t.velocity[i], half))) continue;
     Refuse(adapter, "ReadBodies", "body {} moves beyond the largest number within {} s; reduce the time step or its velocity",
            t.id[i], half);
   }
@@ -88,6 +86,7 @@ void CheckContacts(const ContactTable& t, const BodyTable& bodies, double alert,
       Refuse(adapter, "DetectContacts", "contact {} refers to rows {} and {} of {} poses", c, a, b, rows);
     }
     const ContactKey key = KeyOf(t, c, bodies.id);
+    // From here on bodies have names.
     const auto refuse = [&](const char* what) {
       Refuse(adapter, "DetectContacts", "the contact of bodies {} and {} {}", key.body_a, key.body_b, what);
     };

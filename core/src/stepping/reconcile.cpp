@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parallel/bytes.h"
+#include "problem/state.h"
 
 namespace nscdd {
 namespace {
@@ -18,15 +19,15 @@ struct CopyRecord {
 };
 
 /// Copies whose owner does not know V yet: all but those of its own bodies that no other subdomain touches.
-std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state,
-                                 const Distribution& distribution, const Sharing& sharing) {
+std::vector<CopyRecord> CopiesOf(const PartitionedProblem& problem, const PartitionedState& state, const Population& population,
+                                 const Sharing& sharing, int rank) {
   const int dofs = Dofs(problem.model);
   std::vector<CopyRecord> records;
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
     const SubdomainProblem& p = problem.subdomains[e];
     for (std::size_t b = 0; b < p.body_count(); ++b) {
       const int m = sharing.Multiplicity(p.body[b]);
-      if (m == 0 || (m == 1 && distribution.Owns(p.body[b]))) continue;  // 0: prescribed
+      if (m == 0 || (m == 1 && population.owner[p.body[b]] == rank)) continue;  // 0: prescribed
       CopyRecord record{(*problem.body_id)[p.body[b]], p.subdomain, {}};
       std::copy_n(&state.subdomains[e].velocity[dofs * b], dofs, record.velocity);
       records.push_back(record);
@@ -46,9 +47,10 @@ void AddInterfaceImpulses(const PartitionedProblem& problem, const PartitionedSt
   }
 }
 
-void AddContactImpulses(const ContactTable& table, const BodyTable& bodies, const std::vector<std::int32_t>& solved,
-                        const std::vector<Vec2>& impulse, ImpulseCache* cache) {
-  for (const std::int32_t c : solved) {
+/// In the order of the table, which is that of the keys.
+void AddContactImpulses(const ContactTable& table, const BodyTable& bodies, const std::vector<Vec2>& impulse,
+                        ImpulseCache* cache) {
+  for (std::size_t c = 0; c < impulse.size(); ++c) {
     if (impulse[c].x == 0.0 && impulse[c].y == 0.0) continue;
     const std::int32_t carrier = bodies.kind[table.a[c]] == BodyKind::kFree ? table.a[c] : table.b[c];
     cache->contacts.push_back({bodies.id[carrier], KeyOf(table, c, bodies.id), impulse[c]});
@@ -56,11 +58,10 @@ void AddContactImpulses(const ContactTable& table, const BodyTable& bodies, cons
 }
 
 /// Entries of bodies that others own go to their owners; what others send is appended.
-void Exchange(const Distribution& distribution, Communicator* communicator, std::vector<CopyRecord>* copies,
-              ImpulseCache* cache) {
-  const Population& population = distribution.population();
+void Exchange(const Population& population, Communicator* communicator, std::vector<CopyRecord>* copies, ImpulseCache* cache) {
   const int me = communicator->rank();
   const auto owner = [&](std::int64_t id) { return population.owner[population.RowOf(id)]; };
+  // Copies and impulses of a body travel together, to its owner.
   struct Parcel {
     std::vector<CopyRecord> copies;
     ImpulseCache cache;
@@ -80,6 +81,7 @@ void Exchange(const Distribution& distribution, Communicator* communicator, std:
   divert(
       &cache->interfaces, [](const auto& e) { return e.body; }, [](Parcel* p) { return &p->cache.interfaces; });
 
+  // One message per rank; most ranks get none.
   std::vector<Message> outgoing;
   for (const auto& [rank, parcel] : parcels) {
     Message message{rank, {}};
@@ -106,6 +108,7 @@ void AverageCopies(std::vector<CopyRecord>* copies, const Population& population
   std::sort(copies->begin(), copies->end(), [](const CopyRecord& a, const CopyRecord& b) {
     return std::pair(a.body, a.subdomain) < std::pair(b.body, b.subdomain);
   });
+  // Copies of one body are neighbours now, in the order of their subdomains.
   for (std::size_t first = 0, last = 0; first < copies->size(); first = last) {
     double difference[3] = {0.0, 0.0, 0.0};
     const CopyRecord& head = (*copies)[first];
@@ -124,18 +127,28 @@ void AverageCopies(std::vector<CopyRecord>* copies, const Population& population
   }
 }
 
+/// What the subdomains of this rank know of the columns: impulses, relative velocities, and of each body some copy's velocity.
+void StoreSolution(const PartitionedProblem& problem, const PartitionedState& state, StepTables* tables) {
+  tables->impulse.assign(tables->contacts.size(), {});
+  tables->relative_velocity.assign(tables->contacts.size(), {});
+  tables->velocity = std::move(tables->columns.free_velocity);
+  for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
+    StoreImpulses(problem.subdomains[e], state.subdomains[e], &tables->impulse, &tables->relative_velocity);
+    StoreVelocities(problem.subdomains[e], state.subdomains[e], tables->columns.inverse_mass, &tables->velocity);
+  }
+}
+
 }  // namespace
 
-void Reconcile(const PartitionedProblem& problem, const PartitionedState& state, const Distribution& distribution,
-               const Sharing& sharing, const std::vector<std::int32_t>& solved, const std::vector<Vec2>& impulse,
-               Communicator* communicator, std::vector<Twist>* velocity, ImpulseCache* cache) {
-  cache->contacts.clear();
-  cache->interfaces.clear();
-  std::vector<CopyRecord> copies = CopiesOf(problem, state, distribution, sharing);
+void Reconcile(const PartitionedProblem& problem, const PartitionedState& state, const Population& population,
+               Communicator* communicator, StepTables* tables, ImpulseCache* cache) {
+  StoreSolution(problem, state, tables);
+  cache->Clear();
+  std::vector<CopyRecord> copies = CopiesOf(problem, state, population, tables->sharing, communicator->rank());
   AddInterfaceImpulses(problem, state, cache);
-  AddContactImpulses(*problem.contacts, distribution.population().bodies, solved, impulse, cache);
-  if (communicator->size() > 1) Exchange(distribution, communicator, &copies, cache);
-  AverageCopies(&copies, distribution.population(), Dofs(problem.model), velocity);
+  AddContactImpulses(*problem.contacts, population.bodies, tables->impulse, cache);
+  if (communicator->size() > 1) Exchange(population, communicator, &copies, cache);
+  AverageCopies(&copies, population, Dofs(problem.model), &tables->velocity);
   cache->Sort();
 }
 

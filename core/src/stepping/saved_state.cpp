@@ -5,28 +5,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
-#include <unordered_map>
 
+#include "nscdd/agreement.h"
 #include "nscdd/error.h"
-#include "parallel/agreement.h"
 #include "parallel/bytes.h"
 
 namespace nscdd {
 namespace {
 
-constexpr std::uint64_t kMark = 0x325453444453434e;  // "NCSDDST2": these bytes are a saved state of this layout
+// "NCSDDST" and the number of the layout.
+constexpr std::uint64_t kFamily = 0x005453444453434e, kFamilyBits = 0x00ffffffffffffff;
+constexpr std::uint64_t kLayout = '3';
 constexpr std::int64_t kMostSteps = std::int64_t{1} << 62;
 
-/// The beginning of every part: equal bytes in all parts of one moment.
+/// The beginning of every part: equal in all parts of one moment.
 struct Head {
-  std::uint64_t mark = kMark;
   std::int32_t nx = 1, ny = 1;
   std::int64_t ranks = 1;  ///< that wrote a part
   StepperState state;
 };
-static_assert(sizeof(StepperState) == 32 + sizeof(Grid) && sizeof(Grid) == 64, "no padding: the bytes are compared");
 
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw Error(sentence);
@@ -34,67 +31,68 @@ void Require(bool holds, const std::string& sentence) {
 
 bool IsFinite(Vec2 a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 
-void PutKey(const ContactKey& key, ByteWriter* out) {
-  out->Put(key.body_a);
-  out->Put(key.body_b);
-  out->Put(key.shape_a);
-  out->Put(key.shape_b);
-  out->Put(key.image);
+void PutGrid(const Grid& grid, ByteWriter* out) {
+  out->Put(static_cast<std::int32_t>(grid.nx()));
+  out->Put(static_cast<std::int32_t>(grid.ny()));
+  out->Put(grid.low());
+  out->Put(grid.high());
+  out->Put(grid.period());
 }
 
-ContactKey GetKey(ByteReader* in) {
-  ContactKey key;
-  key.body_a = in->Get<std::int64_t>();
-  key.body_b = in->Get<std::int64_t>();
-  key.shape_a = in->Get<std::int32_t>();
-  key.shape_b = in->Get<std::int32_t>();
-  key.image = in->Get<std::int32_t>();
-  return key;
+Grid GetGrid(ByteReader* in) {
+  const auto nx = in->Get<std::int32_t>(), ny = in->Get<std::int32_t>();
+  const auto low = in->Get<Vec2>(), high = in->Get<Vec2>();
+  const auto period = in->Get<double>();
+  Require(nx >= 1 && ny >= 1 && IsFinite(low) && IsFinite(high) && period >= 0.0 && std::isfinite(period),
+          "the saved state is damaged: its cuts make no sense; take another one");
+  Grid grid(low, high, nx, ny);
+  if (period > 0.0) grid.SetPeriod(low.x, period);
+  return grid;
 }
 
-void PutImpulses(const ImpulseCache& cache, ByteWriter* out) {
-  out->Put(static_cast<std::uint64_t>(cache.contacts.size()));
-  for (const CachedImpulse& entry : cache.contacts) {
-    out->Put(entry.carrier);
-    PutKey(entry.key, out);
-    out->Put(entry.impulse);
-  }
-  out->Put(static_cast<std::uint64_t>(cache.interfaces.size()));
-  for (const CachedInterfaceImpulse& entry : cache.interfaces) {
-    out->Put(entry.body);
-    out->Put(entry.subdomain);
-    for (const double f : entry.force) out->Put(f);
-  }
+std::vector<std::byte> HeadBytes(const Head& head) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(&bytes);
+  out.Put(kFamily | kLayout << 56);
+  out.Put(head.nx);
+  out.Put(head.ny);
+  out.Put(head.ranks);
+  out.Put(head.state.step);
+  out.Put(head.state.time);
+  out.Put(head.state.alert);
+  out.Put(head.state.cached_dt);
+  PutGrid(head.state.grid, &out);
+  return bytes;
 }
 
-// Counts that the bytes cannot hold end the loops by the reader's Error, before memory does.
-void GetImpulses(ByteReader* in, ImpulseCache* cache) {
-  for (auto left = in->Get<std::uint64_t>(); left > 0; --left) {
-    CachedImpulse entry{};
-    entry.carrier = in->Get<std::int64_t>();
-    entry.key = GetKey(in);
-    entry.impulse = in->Get<Vec2>();
-    cache->contacts.push_back(entry);
-  }
-  for (auto left = in->Get<std::uint64_t>(); left > 0; --left) {
-    CachedInterfaceImpulse entry{};
-    entry.body = in->Get<std::int64_t>();
-    entry.subdomain = in->Get<std::int32_t>();
-    for (double& f : entry.force) f = in->Get<double>();
-    cache->interfaces.push_back(entry);
-  }
+Head GetHead(ByteReader* in) {
+  const auto mark = in->Get<std::uint64_t>();
+  Require((mark & kFamilyBits) == kFamily, "these bytes are no saved state of a time stepper");
+  Require(
+      mark >> 56 == kLayout,
+      "these bytes are a saved state of another version of this program; continue with the version that wrote them, or begin "
+      "the run anew");
+  Head head;
+  head.nx = in->Get<std::int32_t>();
+  head.ny = in->Get<std::int32_t>();
+  head.ranks = in->Get<std::int64_t>();
+  head.state.step = in->Get<std::int64_t>();
+  head.state.time = in->Get<double>();
+  head.state.alert = in->Get<double>();
+  head.state.cached_dt = in->Get<double>();
+  head.state.grid = GetGrid(in);
+  return head;
 }
 
-void CheckHead(const Head& head, int nx, int ny) {
-  Require(head.mark == kMark, "these bytes are no saved state of a time stepper of this version");
+void CheckHead(const Head& head, const PartitionOptions& partition) {
+  const int nx = partition.nx, ny = partition.ny;
   Require(head.nx == nx && head.ny == ny,
           fmt::format("the saved state is one of {}x{} subdomains, this solver has {}x{}; continue with the same partition",
                       head.nx, head.ny, nx, ny));
   const StepperState& s = head.state;
   const bool is_cut = s.grid.nx() == nx && s.grid.ny() == ny;
   Require(head.ranks > 0 && s.step >= 0 && s.step < kMostSteps && std::isfinite(s.time) && std::isfinite(s.alert) &&
-              std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && IsFinite(s.grid.low()) && IsFinite(s.grid.high()) &&
-              (is_cut || s.step == 0),
+              std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && (is_cut || s.step == 0),
           "the saved state is damaged: its counters make no sense; take another one");
 }
 
@@ -108,19 +106,18 @@ void CheckImpulses(const ImpulseCache& cache) {
       "the saved state is damaged: an impulse in it is not finite; take another one");
 }
 
-/// The head and the rank of one part.
-std::pair<Head, std::int64_t> ReadPart(std::span<const std::byte> bytes, int nx, int ny, ImpulseCache* cache) {
+/// The head of one part; adds its rank and impulses to the others.
+Head ReadPart(std::span<const std::byte> bytes, const PartitionOptions& partition, std::vector<double>* ranks,
+              ImpulseCache* cache) {
   ByteReader in(bytes);
-  const auto head = in.Get<Head>();
-  CheckHead(head, nx, ny);
-  const auto rank = in.Get<std::int64_t>();
+  const Head head = GetHead(&in);
+  CheckHead(head, partition);
+  ranks->push_back(static_cast<double>(in.Get<std::int64_t>()));
   GetImpulses(&in, cache);
   Require(in.empty(), "the saved state is longer than it says it is");
   CheckImpulses(*cache);
-  return {head, rank};
+  return head;
 }
-
-bool IsSame(const Head& a, const Head& b) { return std::memcmp(&a, &b, sizeof(Head)) == 0; }
 
 /// The head of the lowest rank that was given a part.
 Head AgreeOnHead(std::span<const Head> mine, Communicator* communicator) {
@@ -128,9 +125,10 @@ Head AgreeOnHead(std::span<const Head> mine, Communicator* communicator) {
   communicator->AllReduceMin({&speaker, 1});
   Require(speaker < communicator->size(), "no saved state was given to any rank");
   std::vector<std::byte> bytes;
-  if (speaker == communicator->rank()) ByteWriter(&bytes).Put(mine.front());
+  if (speaker == communicator->rank()) bytes = HeadBytes(mine.front());
   communicator->Broadcast(static_cast<int>(speaker), &bytes);
-  return ByteReader(bytes).Get<Head>();
+  ByteReader in(bytes);
+  return GetHead(&in);
 }
 
 void CheckComplete(std::int64_t ranks, std::vector<double> parts) {
@@ -143,103 +141,38 @@ void CheckComplete(std::int64_t ranks, std::vector<double> parts) {
                       ranks, parts.size()));
 }
 
-struct Mail {
-  std::vector<std::int64_t> owned;
-  ImpulseCache cache;
-};
-
-using MailByRank = std::map<int, Mail>;
-
-/// Delivers the mail; one's own stays here. Returns what came, by sender.
-MailByRank Post(MailByRank mail, Communicator* communicator) {
-  MailByRank received;
-  std::vector<Message> outgoing;
-  for (auto& [rank, letter] : mail) {
-    if (rank == communicator->rank()) {
-      received[rank] = std::move(letter);
-      continue;
-    }
-    ByteWriter out(&outgoing.emplace_back(Message{rank, {}}).bytes);
-    out.PutSpan(std::span<const std::int64_t>(letter.owned));
-    PutImpulses(letter.cache, &out);
-  }
-  for (const Message& message : communicator->Deliver(std::move(outgoing))) {
-    ByteReader in(message.bytes);
-    Mail& letter = received[message.rank];
-    letter.owned = in.GetVector<std::int64_t>();
-    GetImpulses(&in, &letter.cache);
-  }
-  return received;
-}
-
-/// Puts each entry into the mail to the rank that `rank_of` its body names; -1: nowhere.
-template <class RankOf>
-void Address(const ImpulseCache& cache, RankOf rank_of, MailByRank* mail) {
-  for (const CachedImpulse& entry : cache.contacts) {
-    if (const int rank = rank_of(entry.carrier); rank >= 0) (*mail)[rank].cache.contacts.push_back(entry);
-  }
-  for (const CachedInterfaceImpulse& entry : cache.interfaces) {
-    if (const int rank = rank_of(entry.body); rank >= 0) (*mail)[rank].cache.interfaces.push_back(entry);
-  }
-}
-
 }  // namespace
 
-std::vector<std::byte> WriteState(const StepperState& state, const ImpulseCache& cache, int nx, int ny,
+std::vector<std::byte> WriteState(const StepperState& state, const ImpulseCache& cache, const PartitionOptions& partition,
                                   const Communicator& communicator) {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes = HeadBytes({partition.nx, partition.ny, communicator.size(), state});
   ByteWriter out(&bytes);
-  out.Put(Head{kMark, nx, ny, communicator.size(), state});
   out.Put(static_cast<std::int64_t>(communicator.rank()));
   PutImpulses(cache, &out);
   return bytes;
 }
 
-StepperState ReadStates(std::span<const std::span<const std::byte>> parts, int nx, int ny, Communicator* communicator,
-                        ImpulseCache* cache) {
+StepperState ReadStates(std::span<const std::span<const std::byte>> parts, const PartitionOptions& partition,
+                        const AdapterDescription& platform, Communicator* communicator, ImpulseCache* cache) {
   std::vector<Head> heads;
   std::vector<double> ranks;
   RunTogether(communicator, [&] {
-    for (const auto part : parts) {
-      const auto [head, rank] = ReadPart(part, nx, ny, cache);
-      heads.push_back(head);
-      ranks.push_back(static_cast<double>(rank));
-    }
+    for (const auto part : parts) heads.push_back(ReadPart(part, partition, &ranks, cache));
   });
+  // Parts may be many or none on a rank (another number of ranks goes on): all heads must say the same.
   const Head common = AgreeOnHead(heads, communicator);
   RunTogether(communicator, [&] {
-    const bool same = std::all_of(heads.begin(), heads.end(), [&](const Head& head) { return IsSame(head, common); });
+    const std::vector<std::byte> bytes = HeadBytes(common);
+    const bool same = std::all_of(heads.begin(), heads.end(), [&](const Head& head) { return HeadBytes(head) == bytes; });
     Require(same, "the parts of the saved state are of different moments or runs; give those that were saved together");
   });
   CheckComplete(common.ranks, communicator->AllGather(ranks));
-  cache->dt = common.state.cached_dt;
+  const StepperState& state = common.state;
+  Require(state.step == 0 || state.grid.HasPeriod(platform.period_origin, platform.period),
+          fmt::format("the saved state is of a world with another period than {} m from {} m (0: none)", platform.period,
+                      platform.period_origin));
   cache->Sort();
-  return common.state;
-}
-
-void DeliverToOwners(std::span<const std::int64_t> owned, Communicator* communicator, ImpulseCache* cache) {
-  const int ranks = communicator->size();
-  if (ranks == 1) return;
-  const auto clerk = [ranks](std::int64_t id) {
-    return static_cast<int>(static_cast<std::uint64_t>(id) % static_cast<std::uint64_t>(ranks));
-  };
-  MailByRank to_clerks;
-  for (const std::int64_t id : owned) to_clerks[clerk(id)].owned.push_back(id);
-  Address(*cache, clerk, &to_clerks);
-  const MailByRank at_clerk = Post(std::move(to_clerks), communicator);
-  std::unordered_map<std::int64_t, int> owner;
-  for (const auto& [rank, letter] : at_clerk) {
-    for (const std::int64_t id : letter.owned) owner[id] = rank;
-  }
-  MailByRank to_owners;
-  for (const auto& [rank, letter] : at_clerk) {
-    Address(
-        letter.cache, [&](std::int64_t id) { return owner.contains(id) ? owner[id] : -1; }, &to_owners);
-  }
-  cache->contacts.clear();
-  cache->interfaces.clear();
-  for (const auto& [rank, letter] : Post(std::move(to_owners), communicator)) cache->Append(letter.cache);
-  cache->Sort();
+  return state;
 }
 
 }  // namespace nscdd

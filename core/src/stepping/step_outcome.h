@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
-#include "nscdd/platform_adapter.h"
 #include "nscdd/time_stepper.h"
+#include "partition/grid.h"
+#include "partition/population.h"
+#include "stepping/step_tables.h"
 
 namespace nscdd {
 
-/// What a step made of this rank's bodies and contacts.
+/// What a step made of this rank's bodies and contacts, in the columns that the platform and the results are given.
 struct StepOutcome {
-  std::vector<BodyRecord> bodies;       ///< by id
-  std::vector<ContactRecord> contacts;  ///< by (subdomain, key)
+  BodyResults bodies;
+  ContactResults contacts;
 
-  bool IsFinite() const;
-  /// Throws Error naming the first body whose position or velocity is not finite.
-  void RequireFinite() const;
-  /// Hands it to the platform.
-  void Commit(PlatformAdapter* adapter) const;
+  /// Position of the first body whose pose or velocity is not finite; bodies.size() if all are.
+  std::size_t FirstNotFinite() const;
 };
+
+/// The end of the step, q_f = q_m + `half` V with half = theta dt [s], of the bodies of `rank` and of its contacts.
+StepOutcome MoveBodies(const Population& population, const StepTables& tables, const Grid& grid, double half, int rank);
 
 }  // namespace nscdd

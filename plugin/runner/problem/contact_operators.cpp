@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nscdd/contact_kinematics.h"
 #include "nscdd/error.h"
 
 namespace nscdd {
@@ -17,12 +18,11 @@ struct Side {
   Column n, t;
 };
 
-/// H of one contact, on A and on B (conventions of contact_table.h).
+/// H of one contact, on A and on B.
 std::array<Side, 2> SidesOf(const ContactTable& c, std::size_t i) {
-  const Vec2 n = c.normal[i], t{n.y, -n.x};
-  const Vec2 arm_a = c.has_arms() ? c.arm_a[i] : Vec2{}, arm_b = c.has_arms() ? c.arm_b[i] : Vec2{};
-  return {Side{c.a[i], {-n.x, -n.y, -Cross(arm_a, n)}, {-t.x, -t.y, c.lever_a[i] - Cross(arm_a, t)}},
-          Side{c.b[i], {n.x, n.y, Cross(arm_b, n)}, {t.x, t.y, c.lever_b[i] + Cross(arm_b, t)}}};
+  const ContactKinematics h = KinematicsOf(c, i);
+  return {Side{c.a[i], {-h.n.x, -h.n.y, -h.turn_na}, {-h.t.x, -h.t.y, -h.turn_ta}},
+          Side{c.b[i], {h.n.x, h.n.y, h.turn_nb}, {h.t.x, h.t.y, h.turn_tb}}};
 }
 
 double Product(const Column& h, const Twist& v) { return h[0] * v.vx + h[1] * v.vy + h[2] * v.spin; }

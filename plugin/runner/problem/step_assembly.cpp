@@ -5,8 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "nscdd/normal_law.h"
-#include "problem/contact_motion.h"
+#include "nscdd/step_problem.h"
 
 namespace nscdd {
 namespace {
@@ -15,12 +14,10 @@ void AddBodies(const BodyTable& bodies, double dt, ContactProblem* problem) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const bool free = bodies.kind[i] == BodyKind::kFree;
-    const double mass = free ? bodies.mass[i] : kInfinity, inertia = free ? bodies.inertia[i] : kInfinity;
     const Wrench f = free ? bodies.force[i] : Wrench{};
-    const Twist& v = bodies.velocity[i];
-    problem->mass.push_back(mass);
-    problem->inertia.push_back(inertia);
-    problem->free_velocity.push_back({v.vx + dt * f.fx / mass, v.vy + dt * f.fy / mass, v.spin + dt * f.torque / inertia});
+    problem->mass.push_back(free ? bodies.mass[i] : kInfinity);
+    problem->inertia.push_back(free ? bodies.inertia[i] : kInfinity);
+    problem->free_velocity.push_back(FreeVelocity(bodies, i, InverseMassOf(bodies, i), dt));
     problem->impulse.push_back({dt * f.fx, dt * f.fy, dt * f.torque});
   }
 }
@@ -70,13 +67,11 @@ ContactProblem AssembleStep(const BodyTable& bodies, const ContactTable& contact
   ContactProblem problem;
   AddBodies(bodies, dt, &problem);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (stepping.normal_law == NormalLaw::kStrict && contacts.gap[c] > 0.0) continue;
+    if (!Sees(stepping.normal_law, contacts.gap[c])) continue;
+    const NormalCondition normal = NormalConditionOf(stepping, bodies, contacts, c, dt);
     AppendRow(contacts, c, &problem.contacts);
-    const double approach =
-        ContactMotion(contacts, c).Velocity(bodies.velocity[contacts.a[c]], bodies.velocity[contacts.b[c]]).x;
-    const double levers = contacts.lever_a[c] + contacts.lever_b[c];
-    problem.offset.push_back(NormalOffset(stepping, contacts.gap[c], levers, approach, contacts.restitution[c], dt));
-    problem.approach_speed = std::max(problem.approach_speed, -approach);
+    problem.offset.push_back(normal.offset);
+    problem.approach_speed = std::max(problem.approach_speed, -normal.approach);
   }
   return problem;
 }

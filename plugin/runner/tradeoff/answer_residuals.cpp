@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problem/contact_motion.h"
+#include "nscdd/contact_kinematics.h"
 
 namespace nscdd {
 namespace {
 
 bool IsFree(const ContactProblem& p, std::size_t i) { return !std::isinf(p.mass[i]); }
-double InverseMass(const ContactProblem& p, std::size_t i) { return IsFree(p, i) ? 1.0 / p.mass[i] : 0.0; }
-double InverseInertia(const ContactProblem& p, std::size_t i) { return IsFree(p, i) ? 1.0 / p.inertia[i] : 0.0; }
+InverseMass InverseMassOf(const ContactProblem& p, std::size_t i) {
+  return IsFree(p, i) ? InverseMass{1.0 / p.mass[i], 1.0 / p.inertia[i]} : InverseMass{};
+}
 double Square(double x) { return x * x; }
 
 struct Scales {
@@ -51,14 +52,14 @@ struct ContactErrors {
   double worst = 0.0;  // [m/s]
 };
 
-ContactErrors ErrorsOf(Vec2 w, double offset, double mu, Vec2 r, Vec2 v) {
+ContactErrors ErrorsOf(const Delassus& w, double offset, double mu, Vec2 r, Vec2 v) {
   const double opening = v.x + offset;
-  const double rho = 1.0 / (mu > 0.0 ? std::max(w.x, w.y) : w.x);
+  const double rho = 1.0 / (mu > 0.0 ? std::max(w.nn, w.tt) : w.nn);
   const Vec2 moved{r.x - rho * (opening + mu * std::abs(v.y)), mu > 0.0 ? r.y - rho * v.y : 0.0};
   const Vec2 e = r - ProjectOnCone(moved, mu);
-  const double normal = std::abs(std::min(opening, w.x * r.x));
-  const double bound = w.y * mu * std::max(r.x, 0.0);
-  const double tangent = mu > 0.0 ? std::abs(w.y * r.y - std::clamp(w.y * r.y - v.y, -bound, bound)) : w.y * std::abs(r.y);
+  const double normal = std::abs(std::min(opening, w.nn * r.x));
+  const double bound = w.tt * mu * std::max(r.x, 0.0);
+  const double tangent = mu > 0.0 ? std::abs(w.tt * r.y - std::clamp(w.tt * r.y - v.y, -bound, bound)) : w.tt * std::abs(r.y);
   const double worst = std::max(normal, tangent);
   return {Dot(e, e), std::isnan(normal + tangent) ? normal + tangent : worst};
 }
@@ -72,11 +73,11 @@ AnswerResiduals MeasureAnswer(const ContactProblem& p, const Answer& answer, con
   double e2 = 0.0, r2 = 0.0, worst = 0.0, work = 0.0;
   for (std::size_t c = 0; c < t.size(); ++c) {
     const std::size_t a = t.a[c], b = t.b[c];
-    const ContactMotion motion(t, c);
-    const Vec2 r = answer.impulse[c], v = motion.Velocity(answer.velocity[a], answer.velocity[b]);
-    motion.Apply(r, &push[a], &push[b]);
+    const ContactKinematics h = KinematicsOf(t, c);
+    const Vec2 r = answer.impulse[c], v = RelativeVelocity(h, answer.velocity[a], answer.velocity[b]);
+    AddImpulse(h, r, &push[a], &push[b]);
     if (!measured.empty() && !measured[c]) continue;
-    const Vec2 w = motion.Delassus(InverseMass(p, a) + InverseMass(p, b), InverseInertia(p, a), InverseInertia(p, b));
+    const Delassus w = DelassusOf(h, InverseMassOf(p, a), InverseMassOf(p, b));
     const ContactErrors errors = ErrorsOf(w, p.offset[c], t.friction[c], r, v);
     e2 += errors.e2;
     r2 += Dot(r, r);

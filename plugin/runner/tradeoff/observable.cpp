@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "nscdd/contact_kinematics.h"
 #include "nscdd/error.h"
-#include "problem/contact_motion.h"
 #include "scene/names.h"
 
 namespace nscdd {
@@ -53,7 +53,7 @@ Vec2 WallForce(const StepProblem& step, const Answer& answer) {
   Vec2 sum;
   for (std::size_t c = 0; c < t.size(); ++c) {
     Wrench a, b;
-    ContactMotion(t, c).Apply(answer.impulse[c], &a, &b);
+    AddImpulse(KinematicsOf(t, c), answer.impulse[c], &a, &b);
     if (std::isinf(step.problem.mass[t.a[c]])) sum = sum + Vec2{a.fx, a.fy};
     if (std::isinf(step.problem.mass[t.b[c]])) sum = sum + Vec2{b.fx, b.fy};
   }

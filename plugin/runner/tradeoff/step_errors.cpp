@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "problem/contact_motion.h"
+#include "nscdd/contact_kinematics.h"
 
 namespace nscdd {
 namespace {
@@ -81,7 +81,7 @@ InterpenetrationGrowth MeasureGrowth(PlatformAdapter* adapter, const StepProblem
     growth.geometry_max = std::max(growth.geometry_max, change);
   };
   for (std::size_t c = 0; c < t.size(); ++c) {
-    const double vn = ContactMotion(t, c).Velocity(velocity[t.a[c]], velocity[t.b[c]]).x;
+    const double vn = RelativeVelocity(KinematicsOf(t, c), velocity[t.a[c]], velocity[t.b[c]]).x;
     const double linear = Depth(t.gap[c] + step.dt * vn);
     const double solver = std::max(0.0, linear - Depth(t.gap[c]));
     growth.solver_mean += solver;

@@ -7,14 +7,6 @@
 #include "problem/step_assembly.h"
 
 namespace nscdd {
-namespace {
-
-ContactKey KeyOf(const ContactTable& t, std::size_t c, const BodyTable& bodies) {
-  return {bodies.id[t.a[c]], bodies.id[t.b[c]], t.shape_a[c], t.shape_b[c], t.has_images() ? t.image[c] : 0};
-}
-
-}  // namespace
-
 BodyTable ReadSortedBodies(PlatformAdapter* adapter) {
   BodyTable bodies;
   adapter->ReadBodies(&bodies);
@@ -27,7 +19,7 @@ std::vector<Pose> Drifted(const std::vector<Pose>& pose, const std::vector<Twist
   for (std::size_t i = 0; i < moved.size(); ++i) {
     Pose& q = moved[i];
     const Twist& v = velocity[i];
-    q = {q.x + dt * v.vx, q.y + dt * v.vy, q.angle + dt * v.spin};
+    q = Moved(q, v, dt);
     if (platform.period > 0.0) q.x -= platform.period * std::floor((q.x - platform.period_origin) / platform.period);
   }
   return moved;
@@ -57,7 +49,7 @@ StepProblem ReadStepProblem(PlatformAdapter* adapter, const SteppingOptions& ste
   adapter->DetectContacts({p.bodies.id, p.detection}, stepping.alert_distance, &contacts);
   p.problem = AssembleStep(p.bodies, contacts, stepping, dt);
   const ContactTable& t = p.problem.contacts;
-  for (std::size_t c = 0; c < t.size(); ++c) p.keys.push_back(KeyOf(t, c, p.bodies));
+  for (std::size_t c = 0; c < t.size(); ++c) p.keys.push_back(KeyOf(t, c, p.bodies.id));
   return p;
 }
 

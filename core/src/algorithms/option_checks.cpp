@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "problem/option_checks.h"
+#include "algorithms/option_checks.h"
 
 #include <fmt/format.h>
 
@@ -89,18 +89,6 @@ void Check(const NewtonOptions& o) {
 }
 
 }  // namespace
-
-PartitionOptions PartitionOf(const AlgorithmOptions& algorithm) {
-  return std::visit(
-      [](const auto& o) {
-        if constexpr (requires { o.partition; }) {
-          return o.partition;
-        } else {
-          return PartitionOptions{};
-        }
-      },
-      algorithm);
-}
 
 void CheckAlgorithm(const AlgorithmOptions& algorithm) {
   std::visit([](const auto& o) { Check(o); }, algorithm);

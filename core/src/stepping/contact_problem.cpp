@@ -9,14 +9,13 @@
 #include <utility>
 
 #include "algorithms/algorithms.h"
-#include "algorithms/monitor.h"
+#include "algorithms/option_checks.h"
 #include "interface/gluing.h"
-#include "nlgs/contact_frame.h"
-#include "nlgs/sweep.h"
 #include "nscdd/error.h"
-#include "problem/initial_state.h"
-#include "problem/option_checks.h"
-#include "problem/subdomain_builder.h"
+#include "partition/grid.h"
+#include "problem/state.h"
+#include "stepping/step_problem.h"
+#include "stepping/subdomain_contacts.h"
 
 namespace nscdd {
 namespace {
@@ -27,6 +26,7 @@ void Require(bool holds, fmt::format_string<Arguments...> sentence, Arguments&&.
 }
 
 void CheckBodies(const ContactProblem& p) {
+  // mass and inertia +inf go together: a body whose motion is prescribed cannot turn by itself.
   const std::size_t n = p.mass.size();
   Require(p.inertia.size() == n && p.free_velocity.size() == n && p.impulse.size() == n,
           "contact problem: mass, inertia, free_velocity and impulse need one entry per body");
@@ -75,71 +75,52 @@ void CheckContacts(const ContactProblem& p) {
   for (std::size_t c = 0; c < n; ++c) CheckContact(p, c);
 }
 
-double InverseOf(double mass) { return std::isinf(mass) ? 0.0 : 1.0 / mass; }
-
-ResidualScales Scales(const ContactProblem& p) {
-  ResidualScales s;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < p.mass.size(); ++i) {
-    if (std::isinf(p.mass[i])) continue;
-    const double f2 = p.impulse[i].fx * p.impulse[i].fx + p.impulse[i].fy * p.impulse[i].fy;
-    sum += f2;
-    s.energy += f2 / p.mass[i];
-    s.velocity = std::max(s.velocity, std::sqrt(f2) / p.mass[i]);
-  }
-  s.impulse = std::sqrt(sum);
-  s.velocity = std::max(s.velocity, p.approach_speed);
-  for (const double offset : p.offset) s.velocity = std::max(s.velocity, -offset);  // speeds of recovery
-  return s;
-}
-
-double MeanMass(const ContactProblem& p) {
-  double sum = 0.0, count = 0.0;
-  for (const double mass : p.mass) {
-    if (std::isinf(mass)) continue;
-    sum += mass;
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 /// Everything of a problem that its solution refers to.
 struct Assembly {
-  std::vector<double> inverse_mass, inverse_inertia;
+  StepColumns columns;
   std::vector<std::int64_t> body_id;
   Sharing sharing;
   PartitionedProblem problem;
 };
 
-void Assemble(const ContactProblem& p, Assembly* out) {
+StepColumns ColumnsOf(const ContactProblem& p) {
+  StepColumns columns;
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
-    out->inverse_mass.push_back(InverseOf(p.mass[i]));
-    out->inverse_inertia.push_back(InverseOf(p.inertia[i]));
+    const bool free = !std::isinf(p.mass[i]);
+    columns.inverse_mass.push_back(free ? 1.0 / p.mass[i] : 0.0);
+    columns.inverse_inertia.push_back(free ? 1.0 / p.inertia[i] : 0.0);
   }
+  columns.free_velocity = p.free_velocity;
+  columns.approach.assign(p.contacts.size(), -p.approach_speed);
+  columns.offset = p.offset;
+  return columns;
+}
+
+SubdomainContacts ContactsOf(const ContactProblem& p) {
+  const int count = p.subdomain.empty() ? 1 : 1 + *std::max_element(p.subdomain.begin(), p.subdomain.end());
+  SubdomainContacts chosen{0, std::vector<std::vector<std::int32_t>>(count)};
+  for (std::size_t c = 0; c < p.contacts.size(); ++c) {
+    chosen.rows[p.subdomain.empty() ? 0 : p.subdomain[c]].push_back(static_cast<std::int32_t>(c));
+  }
+  return chosen;
+}
+
+void Assemble(const ContactProblem& p, Communicator* communicator, Assembly* out) {
+  const SubdomainContacts chosen = ContactsOf(p);
+  const auto is_free = [&](std::int32_t body) { return !std::isinf(p.mass[body]); };
+  out->columns = ColumnsOf(p);
   out->body_id.resize(p.mass.size());
   std::iota(out->body_id.begin(), out->body_id.end(), 0);
-  const int count = p.subdomain.empty() ? 1 : 1 + *std::max_element(p.subdomain.begin(), p.subdomain.end());
-  std::vector<std::vector<std::int32_t>> rows(count);
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    const int e = p.subdomain.empty() ? 0 : p.subdomain[c];
-    rows[e].push_back(static_cast<std::int32_t>(c));
-    for (const std::int32_t body : {p.contacts.a[c], p.contacts.b[c]}) {
-      if (out->inverse_mass[body] > 0.0) pairs.emplace_back(body, e);
-    }
+  out->sharing = MakeSharing(p.mass.size(), TouchedBodies(p.contacts, chosen, p.mass.size(), is_free));
+  const ProblemTables tables = TablesOf(out->columns, p.contacts, out->sharing);
+  std::vector<ProblemPart> parts(chosen.rows.size());
+  // The loads come as impulses dt f: those of a step of 1 s. They serve as scales, which are of no one subdomain.
+  for (std::size_t i = 0; i < p.mass.size(); ++i) {
+    if (is_free(static_cast<std::int32_t>(i))) AddBody(p.mass[i], 0.0, p.impulse[i], 1.0, &parts.front());
   }
-  out->sharing = MakeSharing(p.mass.size(), pairs);
-  const ProblemTables tables{out->inverse_mass, out->inverse_inertia, p.free_velocity, &p.contacts, p.offset, &out->sharing};
-  PartitionedProblem& problem = out->problem;
-  problem.model = RequiredModel(tables);
-  SubdomainBuilder builder(tables, problem.model);
-  for (int e = 0; e < count; ++e) problem.subdomains.push_back(builder.Build(e, std::move(rows[e])));
-  problem.interface = MakeInterfaceMap(problem.subdomains, out->sharing, Blocks(count, 1), 0);
-  problem.scales = Scales(p);
-  problem.mean_mass = MeanMass(p);
-  problem.contact_count = static_cast<std::int64_t>(p.contacts.size());
-  problem.contacts = &p.contacts;
-  problem.body_id = &out->body_id;
+  AddContacts(chosen, out->columns, &parts);
+  const ProblemTotals totals = ReduceTotals(std::move(parts), RequiredModel(tables), communicator);
+  out->problem = AssembleProblem(tables, out->body_id, chosen, totals, Blocks(static_cast<int>(chosen.rows.size()), 1), 0);
 }
 
 /// The interface impulses that warm impulses of the whole imply: those with which all copies of a body have its velocity.
@@ -152,35 +133,42 @@ void GlueCopies(const PartitionedProblem& problem, Communicator* communicator, P
 
 }  // namespace
 
+std::vector<int> SubdomainsOf(std::span<const Vec2> sites, int nx, int ny) {
+  std::vector<int> subdomain;
+  if (sites.empty()) return subdomain;
+  Vec2 low = sites.front(), high = sites.front();
+  for (const Vec2& p : sites) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const Grid grid(low, high, nx, ny);
+  for (const Vec2& p : sites) subdomain.push_back(grid.CellOf(p));
+  return subdomain;
+}
+
 ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOptions& options, const std::vector<Vec2>& warm) {
   CheckAlgorithm(options);
   CheckBodies(p);
   CheckContacts(p);
   Require(warm.empty() || warm.size() == p.contacts.size(), "contact problem: warm impulses need one entry per contact");
-  Assembly assembly;
-  Assemble(p, &assembly);
-  const PartitionedProblem& problem = assembly.problem;
   SerialCommunicator serial;
+  Assembly assembly;
+  Assemble(p, &serial, &assembly);
+  const PartitionedProblem& problem = assembly.problem;
   InterfaceWorkspace workspace;
-  Require(problem.subdomains.size() == 1 || std::visit(
-                                                [](const auto& o) {
-                                                  return requires { o.partition; };
-                                                },
-                                                options),
+  Require(problem.subdomains.size() == 1 || HasPartition(options),
           "contact problem: nscd and newton solve one subdomain; use nscdd for several");
 
+  // Bodies without contact keep V_f; spins that are no unknown too.
   ContactSolution solution;
   solution.velocity = p.free_velocity;
   solution.impulse.assign(p.contacts.size(), {});
   solution.relative_velocity.assign(p.contacts.size(), {});
   PartitionedState state = InitialState(problem, warm);
   if (!warm.empty() && !problem.interface.copies.empty()) GlueCopies(problem, &serial, &state);
-  solution.report = problem.contact_count == 0
-                        ? ReportWithoutContacts(problem)
-                        : std::visit([&](const auto& o) { return Solve(problem, o, &serial, &workspace, &state); }, options);
-  solution.report.subdomains = static_cast<std::int64_t>(problem.subdomains.size());
+  solution.report = SolveAny(problem, options, &serial, &workspace, &state);
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
-    StoreVelocities(problem.subdomains[e], state.subdomains[e], assembly.inverse_mass, &solution.velocity);
+    StoreVelocities(problem.subdomains[e], state.subdomains[e], assembly.columns.inverse_mass, &solution.velocity);
     StoreImpulses(problem.subdomains[e], state.subdomains[e], &solution.impulse, &solution.relative_velocity);
   }
   return solution;

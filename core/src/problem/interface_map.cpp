@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "interface/interface_map.h"
+#include "problem/interface_map.h"
 
 #include <algorithm>
 #include <map>
@@ -37,6 +37,7 @@ InterfaceMap MakeInterfaceMap(const std::vector<SubdomainProblem>& problems, con
   if (local.empty()) return map;
   std::map<int, InterfaceMap::Neighbour> neighbours;
   map.slot_begin.push_back(0);
+  // One round per interface body: a slot for each of its copies, wherever they are.
   for (auto copy = local.begin(); copy != local.end();) {
     const std::int32_t row = copy->row, first = map.slot_begin.back();
     const auto subdomains = sharing.Of(row);
@@ -53,6 +54,7 @@ InterfaceMap MakeInterfaceMap(const std::vector<SubdomainProblem>& problems, con
         ranks.push_back(owner);
       }
     }
+    // Whoever has another copy needs ours, once.
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
     for (const int other : ranks) {
       auto& send = neighbours[other].send;

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "nscdd/contact_kinematics.h"
 #include "problem/subdomain_problem.h"
 
 namespace nscdd {
+
+// What contact_kinematics.h says, on the compact structures that the sweeps run through.
 
 /// Relative velocity and impulse of a contact in its frame.
 struct Local {
   double n = 0.0;
   double t = 0.0;
 };
+
+/// r of one contact; `impulse` points at its unknowns. r_t is zero without friction.
+template <class Row>
+inline Local ImpulseOf(const double* impulse) {
+  return {impulse[0], HasFriction(Row::kModel) ? impulse[Unknowns(Row::kModel) - 1] : 0.0};
+}
+
+/// Its status, without friction open or sliding.
+template <class Row>
+inline ContactStatus StatusOf(const Row& c, const double* impulse) {
+  const Local r = ImpulseOf<Row>(impulse);
+  if constexpr (HasFriction(Row::kModel)) return StatusOf(Vec2{r.n, r.t}, c.friction);
+  return StatusOf(Vec2{r.n, r.t}, 0.0);
+}
 
 /// v = H^T V of one contact; `va`, `vb` point at the velocities of its bodies. v_t is zero without friction.
 template <class Row>
@@ -24,6 +41,7 @@ inline Local RelativeVelocity(const Row& c, const double* va, const double* vb) 
 /// V += M^-1 H dr on both bodies; `ia`, `ib` point at their inverse masses.
 template <class Row>
 inline void AddImpulse(const Row& c, Local dr, const double* ia, const double* ib, double* va, double* vb) {
+  // p = n dr_n + t dr_t acts on B, -p on A.
   double px = c.n.x * dr.n, py = c.n.y * dr.n;
   if constexpr (HasFriction(Row::kModel)) {
     px += c.n.y * dr.t;
@@ -44,13 +62,6 @@ inline void AddImpulse(const Row& c, Local dr, const double* ia, const double* i
     vb[2] += ib[1] * (c.turn_nb * dr.n + c.turn_tb * dr.t);
   }
 }
-
-/// Diagonal block of the Delassus operator, W = H^T M^-1 H [1/kg].
-struct Delassus {
-  double nn = 0.0;
-  double nt = 0.0;
-  double tt = 0.0;
-};
 
 /// W of one contact from the inverse masses of its bodies, each multiplied by `share` (1 / m_i gives undivided masses).
 template <class Row>

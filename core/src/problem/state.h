@@ -8,6 +8,9 @@
 
 namespace nscdd {
 
+/// V_E := V_f + M~^-1 H r  (F_E is subtracted by the interface).
+void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state);
+
 /// First iterate from warm impulses, (r_n, r_t) per row of the rank's table of contacts (empty: r = 0), and interface impulses
 /// F = 0: r clipped to the cone, V_E = V_f + M~^-1 H r. Set F afterwards with Gluing::SubtractImpulse.
 PartitionedState InitialState(const PartitionedProblem& problem, std::span<const Vec2> warm);

@@ -5,9 +5,6 @@
 
 namespace nscdd {
 
-/// Subdomains that an algorithm works on; NSCD has one.
-PartitionOptions PartitionOf(const AlgorithmOptions& algorithm);
-
 /// Throws Error, naming the option, its value and what is allowed.
 void CheckStepping(const SteppingOptions& options);
 void CheckAlgorithm(const AlgorithmOptions& algorithm);

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "problem/initial_state.h"
+#include "problem/state.h"
 
 #include <algorithm>
 
-#include "nlgs/contact_frame.h"
-#include "nlgs/sweep.h"
+#include "problem/contact_frame.h"
 
 namespace nscdd {
+
+void ComputeVelocity(const SubdomainProblem& problem, SubdomainState* state) {
+  state->velocity = problem.free_velocity;
+  VisitRows(problem, [&](const auto& rows) {
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
+    const double* r = state->impulse.data();
+    const double* inverse = problem.inverse_mass.data();
+    double* v = state->velocity.data();
+    for (const Row& c : rows) {
+      AddImpulse(c, ImpulseOf<Row>(r), inverse + kInertias * c.a, inverse + kInertias * c.b, v + kDofs * c.a, v + kDofs * c.b);
+      r += kUnknowns;
+    }
+  });
+}
 
 PartitionedState InitialState(const PartitionedProblem& problem, std::span<const Vec2> warm) {
   PartitionedState state;
@@ -22,6 +36,7 @@ PartitionedState InitialState(const PartitionedProblem& problem, std::span<const
       for (std::size_t k = 0; k < rows.size(); ++k) {
         const Vec2 r = warm[p.contact[k]];
         double* impulse = &s.impulse[Unknowns(Row::kModel) * k];
+        // The cone of now: friction may have changed, and the impulse may come from a file.
         impulse[0] = std::max(0.0, r.x);
         if constexpr (HasFriction(Row::kModel)) {
           const double bound = rows[k].friction * impulse[0];

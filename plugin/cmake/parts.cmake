@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# A part that others may link: its headers in include/, its targets nscdd_... as nscdd::NAME.
+#     nscdd_install_part(TARGET NAME [TARGET NAME ...])
+# The global property NSCDD_PUBLIC_PARTS lists the folders whose include/ is public.
+function(nscdd_install_part)
+  while(ARGN)
+    list(POP_FRONT ARGN target name)
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    install(TARGETS ${target} EXPORT nscddTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endwhile()
+  set_property(GLOBAL APPEND PROPERTY NSCDD_PUBLIC_PARTS ${CMAKE_CURRENT_SOURCE_DIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
