@@ -179,8 +179,8 @@ typedef enum nscdd_status {
   NSCDD_STALLED = 2,
   NSCDD_DIVERGED = 3,
   NSCDD_INCOMPLETE = 4, /* an incomplete resolution did all that it does; the criterion does not hold for the whole sample */
-  NSCDD_FIXED = 5 /* since minor 2: tolerance 0, it made the iterations asked for. Where the header of the host's nscdd_report is
-                   * of a lower minor, NSCDD_ITERATION_LIMIT stands for it */
+  NSCDD_FIXED = 5 /* since minor 2: tolerance 0, it made the iterations asked for. Where the header of the host's nscdd_report
+                   * is of a lower minor, NSCDD_ITERATION_LIMIT stands for it */
 } nscdd_status;
 
 /* Of the last step or solve. Meaning of the numbers: SolveReport and StepReport in nscdd/report.h. */

@@ -192,7 +192,8 @@ class Program {
     tradeoff->add_option("--accuracy", tradeoff_.accuracy, "What whole runs are ranked by: nat, nat_max or interpenetration")
         ->capture_default_str();
     tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(kPositive);
-    tradeoff->add_option("--steps", tradeoff_.steps, "Steps to measure, spread over the scene (default: all, at most 100)")->check(kPositive);
+    tradeoff->add_option("--steps", tradeoff_.steps, "Steps to measure, spread over the scene (default: all, at most 100)")
+        ->check(kPositive);
     tradeoff->add_option("--problems", tradeoff_.problems, "Steps whose problems all settings solve (default 20)")
         ->check(kPositive);
     tradeoff->add_option("--repetitions", tradeoff_.repetitions, "Passes for the time (default 5)")->check(kNotNegative);

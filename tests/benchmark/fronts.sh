@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The trade on five scenes: a CSV file and a picture each, and the tables of FRONTS.md. At most about five minutes a scene.
-#     tests/benchmark/fronts.sh [FOLDER (default: sample_scenes/tradeoff)] [PROGRAM (default: build/release/bin/nscdd)] [SCENE...]
+#   tests/benchmark/fronts.sh [FOLDER (default: sample_scenes/tradeoff)] [PROGRAM (default: build/release/bin/nscdd)] [SCENE...]
 # Pin it to one core for steadier seconds: taskset -c 0 tests/benchmark/fronts.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."

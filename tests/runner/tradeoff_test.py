@@ -156,7 +156,8 @@ class Tradeoff(ProgramTest):
 
     def runs_of(self, name, scene, settings, *arguments):
         out = self.folder / name
-        done = nscdd("tradeoff", self.write(f"{name}.toml", scene), "--settings", self.write("settings.toml", settings), "--problems", 1,
+        done = nscdd("tradeoff", self.write(f"{name}.toml", scene), "--settings", self.write("settings.toml", settings),
+                     "--problems", 1,
                      "--repetitions", 0, "--out", out, *arguments, timeout=1800)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout, {r["setting"]: r for r in read_csv(out / "tradeoff.csv") if r["view"] == "runs"}
@@ -180,17 +181,20 @@ class Tradeoff(ProgramTest):
     def test_stretches_go_on_as_one_run_does(self):
         """A setting as accurate as the scouting run meets the same states: its rows are those of the whole run there."""
         scene = HEAP.replace("steps = 6", "steps = 40")
-        sharp = ''.join(f'[[settings]]\nname = "{g}"\nsolver = "nscdd"\nsubdomains = [{g}, 1]\ntolerance = 1e-5\n' for g in (1, 2))
+        sharp = ''.join(f'[[settings]]\nname = "{g}"\nsolver = "nscdd"\nsubdomains = [{g}, 1]\ntolerance = 1e-5\n'
+                        for g in (1, 2))
         whole = self.runs_of("whole", scene, sharp, "--observable", "kinetic_energy")[1]
         some = self.runs_of("some", scene, sharp, "--steps", 20, "--observable", "kinetic_energy")[1]
         for setting in ("1", "2"):
             self.assertEqual(some[setting]["status"], "converged")
-            self.assertLess(float(some[setting]["interpenetration_max"]), 2 * float(whole[setting]["interpenetration_max"]) + 1e-4)
+            self.assertLess(float(some[setting]["interpenetration_max"]),
+                            2 * float(whole[setting]["interpenetration_max"]) + 1e-4)
             self.assertLess(float(some[setting]["sweeps"]), 2 * float(whole[setting]["sweeps"]))  # impulses are those of a run
             self.assertLess(float(some[setting]["observable_error"]), 1e-3)
 
     def test_what_is_advised_does_as_asked(self):
-        """Also over the whole scene: neither advice nor front has a setting that fell short, and a fixed number is no failure."""
+        """Also over the whole scene: neither advice nor front has a setting that fell short, and a fixed number is no
+        failure."""
         scene = HEAP.replace("steps = 6", "steps = 40")
         mine = ('[[settings]]\nname = "short"\nsolver = "nscd"\ntolerance = 1e-12\nmax_iterations = 7\n'
                 '[[settings]]\nname = "five"\nsolver = "nscd"\ntolerance = 0\nmax_iterations = 5\ntest_every = 5\n')
@@ -202,7 +206,8 @@ class Tradeoff(ProgramTest):
         sections = re.findall(r"^\[solver\]\n(?:[^\n#]+\n)+", text, re.MULTILINE)
         self.assertTrue(any("tolerance = 0\n" in s for s in sections), text)
         for k, section in enumerate(sections):
-            done = nscdd("run", self.write("pasted.toml", scene[:scene.index("[solver]")] + section), "--out", self.folder / f"run{k}")
+            done = nscdd("run", self.write("pasted.toml", scene[:scene.index("[solver]")] + section), "--out",
+                         self.folder / f"run{k}")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("NOT CONVERGED", done.stdout)
             if "tolerance = 0\n" not in section:
