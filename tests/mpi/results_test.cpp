@@ -52,8 +52,17 @@ ShapeTable ShapesOf(int rank) {
   return shapes;
 }
 
+RunIdentity RunOf(const std::string& scene) {
+  RunIdentity run;
+  run.scene = scene;
+  run.scene_file = scene + ".toml";
+  run.scene_hash = "0";
+  run.version = "0.1.0";
+  return run;
+}
+
 void Write(const fs::path& path, const RankGroup& ranks, int bodies) {
-  ResultsFolder folder(path, {"a", "a.toml", "0", "0.1.0", {}}, ranks);
+  ResultsFolder folder(path, RunOf("a"), ranks);
   StepsCsv steps(&folder);
   steps.Append({});
   steps.Close();
@@ -119,9 +128,9 @@ TEST_F(Results, TheLastRanksErrorIsEverybodys) {
 
 TEST_F(Results, WhatRankZeroRefusesAllRefuse) {
   Write(base / "many", ranks, kBodies);
-  const auto other = [&] { ResultsFolder(base / "many", {"b", "b.toml", "0", "0.1.0", {}}, ranks); };
+  const auto other = [&] { ResultsFolder(base / "many", RunOf("b"), ranks); };
   EXPECT_TRUE(test::Says(RefusalOf(other), "another folder"));
-  const auto unwritable = [&] { ResultsFolder("/proc/nscdd", {"b", "b.toml", "0", "0.1.0", {}}, ranks); };
+  const auto unwritable = [&] { ResultsFolder("/proc/nscdd", RunOf("b"), ranks); };
   EXPECT_TRUE(test::Says(RefusalOf(unwritable), "cannot write /proc/nscdd"));
 }
 
