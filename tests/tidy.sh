@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tests/tidy.sh [BASE]   runs clang-tidy (Debian's package of this name; checks: .clang-tidy) on the sources that differ from the
-#                        commit BASE, by default from origin/main, or HEAD~1 where there is no such branch
+# tests/tidy.sh [BASE]   runs clang-tidy (Debian's package of this name; checks: .clang-tidy) on the sources that differ from
+#                        the commit BASE, by default from origin/main, or HEAD~1 where there is no such branch
 # tests/tidy.sh --full   on all of them
 # PRESET=dev tests/tidy.sh   by the compile commands of another preset than release. A changed header is seen through its own
 # source, or the first one that includes it. Exit code 1 if there is a finding.
@@ -44,5 +44,5 @@ if [[ -z $sources ]]; then
   exit 0
 fi
 echo "$(wc -l <<<"$sources") sources"
-tr '\n' '\0' <<<"$sources" | xargs -0 -n 1 -P "$(nproc)" nice clang-tidy -p "build/$preset" --quiet --warnings-as-errors='*' 2> >(
-  grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header-filter' >&2)
+tr '\n' '\0' <<<"$sources" | xargs -0 -n 1 -P "$(nproc)" nice clang-tidy -p "build/$preset" --quiet \
+  --warnings-as-errors='*' 2> >(grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header-filter' >&2)

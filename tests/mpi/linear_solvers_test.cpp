@@ -2,15 +2,12 @@
 // Eigen and MUMPS solve the same augmented interface, MUMPS on one rank (MPI_COMM_SELF) and over all of them; factorisations
 // are kept while pattern and numbers stay. General matrices too.
 
-#include <fmt/format.h>
-#include <mpi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "linear/kept_solver.h"
-#include "nscdd/mpi_communicator.h"
+#include "mpi_test.h"
 
 namespace nscdd {
 namespace {
@@ -76,61 +73,38 @@ Matrix GeneralMatrix() {
   return m;
 }
 
-/// What solver newton uses for its cross-check.
-bool GeneralSolversAgree(Communicator* communicator) {
+using LinearSolvers = test::MpiTest;
+
+// What solver newton uses for its cross-check.
+TEST_F(LinearSolvers, OfGeneralMatricesAgree) {
   const Matrix m = GeneralMatrix();
-  KeptSolver eigen(MakeLocalSolver(LinearLibrary::kEigen, Symmetry::kGeneral), communicator);
-  KeptSolver mumps(MakeLocalSolver(LinearLibrary::kMumps, Symmetry::kGeneral), communicator);
-  KeptSolver definite(MakeLocalSolver(LinearLibrary::kEigen), communicator);
+  KeptSolver eigen(MakeLocalSolver(LinearLibrary::kEigen, Symmetry::kGeneral), &communicator);
+  KeptSolver mumps(MakeLocalSolver(LinearLibrary::kMumps, Symmetry::kGeneral), &communicator);
+  KeptSolver definite(MakeLocalSolver(LinearLibrary::kEigen), &communicator);
   const std::vector<double> expected = Solve(&eigen, m);
-  const double difference = Difference(expected, Solve(&mumps, m));
-  const double symmetric = Difference(expected, Solve(&definite, RingMatrix(300, 10.0, 0, 1)));
-  const bool ok = difference < 1e-10 && symmetric > 1e-3;
-  if (communicator->rank() == 0)
-    fmt::print("{} general: MUMPS differs by {:.1e}, the symmetric one by {:.1e}\n", ok ? "ok    " : "FAILED", difference,
-               symmetric);
-  return ok;
+  EXPECT_LT(Difference(expected, Solve(&mumps, m)), 1e-10);
+  EXPECT_GT(Difference(expected, Solve(&definite, RingMatrix(300, 10.0, 0, 1))), 1e-3) << "the matrix is symmetric";
 }
 
-int Check(Communicator* communicator) {
-  const int rank = communicator->rank(), ranks = communicator->size();
-  KeptSolver eigen(MakeLocalSolver(LinearLibrary::kEigen), communicator);
-  KeptSolver mumps(MakeLocalSolver(LinearLibrary::kMumps), communicator);
-  KeptSolver shared(MakeSharedSolver(LinearLibrary::kMumps, communicator), communicator);
-  int failures = 0;
+TEST_F(LinearSolvers, OfTheInterfaceAgreeAndKeepTheirFactors) {
+  const int rank = communicator.rank(), ranks = communicator.size();
+  KeptSolver eigen(MakeLocalSolver(LinearLibrary::kEigen), &communicator);
+  KeptSolver mumps(MakeLocalSolver(LinearLibrary::kMumps), &communicator);
+  KeptSolver shared(MakeSharedSolver(LinearLibrary::kMumps, &communicator), &communicator);
   for (const double lambda : {0.1, 10.0, 1e4, 1e6}) {
     const Matrix whole = RingMatrix(300, lambda, 0, 1), mine = RingMatrix(300, lambda, rank, ranks);
     const std::vector<double> expected = Solve(&eigen, whole);
-    const double local = Difference(expected, Solve(&mumps, whole));
-    const double distributed = Difference(expected, Solve(&shared, shared.is_distributed() ? mine : whole));
-    const bool ok = local < 1e-10 && distributed < 1e-9;
-    failures += !ok;
-    if (rank == 0)
-      fmt::print("{} lambda {:g}: MUMPS differs by {:.1e}, over {} ranks by {:.1e}\n", ok ? "ok    " : "FAILED", lambda, local,
-                 ranks, distributed);
+    EXPECT_LT(Difference(expected, Solve(&mumps, whole)), 1e-10) << "lambda = " << lambda;
+    EXPECT_LT(Difference(expected, Solve(&shared, shared.is_distributed() ? mine : whole)), 1e-9) << "lambda = " << lambda;
   }
   // The pattern was the same all along, the numbers of the last two solves too.
   for (KeptSolver* solver : {&eigen, &mumps, &shared}) {
     const Matrix again = RingMatrix(300, 1e6, solver->is_distributed() ? rank : 0, solver->is_distributed() ? ranks : 1);
     Solve(solver, again);
-    failures += solver->counters().analyses != 1 || solver->counters().factorisations != 4;
+    EXPECT_EQ(solver->counters().analyses, 1);
+    EXPECT_EQ(solver->counters().factorisations, 4);
   }
-  failures += !GeneralSolversAgree(communicator);
-  return failures;
 }
 
 }  // namespace
 }  // namespace nscdd
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  int failures = 0;
-  {
-    nscdd::MpiCommunicator communicator(MPI_COMM_WORLD);
-    failures = nscdd::Check(&communicator);
-  }
-  int all = 0;
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  MPI_Finalize();
-  return all == 0 ? 0 : 1;
-}

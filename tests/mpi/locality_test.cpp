@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data and messages are local: a rank holds its subdomains' bodies and a halo, and talks to its neighbours. Four ranks, a tall
-// sample in horizontal strips, so that a rank has two neighbours at most.
-
-#include <mpi.h>
+// Data and messages are local: a rank holds its subdomains' bodies and a halo, and talks to its neighbours. A tall sample in
+// horizontal strips, so that a rank has two neighbours at most.
 
 #include <set>
 
-#include "nscdd/mpi_communicator.h"
+#include "mpi_test.h"
 #include "ranked_host.h"
 
 namespace nscdd::test {
@@ -51,62 +49,60 @@ class Recorder final : public Communicator {
   Communicator* inner_;
 };
 
-int Check(Communicator* world) {
-  constexpr int kRows = 60, kColumns = 6, kSubdomains = 8;
-  Recorder recorder(world);
-  NscddOptions options;
-  options.partition = {1, kSubdomains, 1};
-  options.stopping.max_iterations = 50;
-  options.stopping.tolerance = 1e-12;
-  RankedHost host({.columns = kColumns, .rows = kRows}, options, &recorder);
+class Locality : public MpiTest {
+ protected:
+  static constexpr int kRows = 60, kColumns = 6, kSubdomains = 8;
+
+  static NscddOptions Strips() {
+    NscddOptions options;
+    options.partition = {1, kSubdomains, 1};
+    options.stopping.max_iterations = 50;
+    options.stopping.tolerance = 1e-12;
+    return options;
+  }
+
+  Recorder recorder{&communicator};
+  RankedHost host{{.columns = kColumns, .rows = kRows}, Strips(), &recorder};
+};
+
+TEST_F(Locality, MessagesGoToNeighboursOnly) {
   host.Step(1);
   recorder.delivered.clear();
   recorder.largest_gather = 0;
-  std::int64_t messages = 0;
-  bool counted = true;
+  host.Step(5);
+  const int me = communicator.rank(), last = communicator.size() - 1;
+  const std::set<int> neighbours = me == 0 ? std::set{1} : me == last ? std::set{me - 1} : std::set{me - 1, me + 1};
+  EXPECT_EQ(recorder.exchanged, neighbours) << "of the interface";
+  EXPECT_EQ(recorder.most_partners, neighbours.size());
+  EXPECT_GE(recorder.exchanges, 250);
+  // The wall reaches along the whole sample: its owner tells everybody. Grains travel between neighbours only.
+  const bool owns_wall = host.Owns(0);
+  for (const int rank : recorder.delivered) EXPECT_TRUE(owns_wall || neighbours.contains(rank)) << "to rank " << rank;
+  // Reductions: a few numbers per subdomain.
+  EXPECT_LE(recorder.largest_gather, 16U * kSubdomains / 4);
+}
+
+TEST_F(Locality, ARankHoldsItsShareAndAHalo) {
+  host.Step(6);
+  // One wall, its subdomains' share and two layers of grains on either side.
+  const std::size_t share = kRows * kColumns / 4, halo = 2 * 2 * kColumns;
+  EXPECT_LE(host.world.size(), 1 + share * 5 / 4 + halo) << "of " << 1 + kRows * kColumns << " bodies";
+}
+
+TEST_F(Locality, MessagesAreCounted) {
+  host.Step(1);
   for (int k = 0; k < 5; ++k) {
     const std::int64_t before = recorder.counters().messages;
     const StepReport& report = host.stepper->Step(0.01);
     const double mine = static_cast<double>(recorder.counters().messages - before);
     double sum = 0.0;
-    for (const double one : world->AllGather({&mine, 1})) sum += one;
-    counted = counted && static_cast<double>(report.messages) == sum && report.message_bytes > 0 && report.collectives > 0;
-    messages += report.messages;
+    for (const double one : communicator.AllGather({&mine, 1})) sum += one;
+    EXPECT_EQ(static_cast<double>(report.messages), sum);
+    EXPECT_GT(report.messages, 0);
+    EXPECT_GT(report.message_bytes, 0);
+    EXPECT_GT(report.collectives, 0);
   }
-
-  const int me = world->rank(), last = world->size() - 1;
-  const std::set<int> neighbours = me == 0 ? std::set{1} : me == last ? std::set{me - 1} : std::set{me - 1, me + 1};
-  int failures = 0;
-  failures +=
-      ReportCheck("interface exchanges with exactly the neighbours",
-                  recorder.exchanged == neighbours && recorder.most_partners == neighbours.size() && recorder.exchanges >= 250,
-                  world, fmt::format("{} exchanges", recorder.exchanges));
-  // The wall reaches along the whole sample: its owner tells everybody.
-  const bool owns_wall = host.Owns(0);
-  bool local = true;
-  for (const int rank : recorder.delivered) local = local && (owns_wall || neighbours.contains(rank));
-  failures += ReportCheck("grains travel between neighbours only", local, world);
-  // Reductions: a few numbers per subdomain.
-  failures += ReportCheck("reductions are small", recorder.largest_gather <= 16 * kSubdomains / 4, world,
-                          fmt::format("{} numbers at most", recorder.largest_gather));
-  // One wall, its subdomains' share and two layers of grains on either side.
-  const std::size_t share = kRows * kColumns / 4, halo = 2 * 2 * kColumns;
-  failures += ReportCheck("a rank holds its share and a halo", host.world.size() <= 1 + share * 5 / 4 + halo, world,
-                          fmt::format("{} of {} bodies", host.world.size(), 1 + kRows * kColumns));
-  failures += ReportCheck("messages are counted", counted && messages > 0, world, fmt::format("{} in five steps", messages));
-  return failures;
 }
 
 }  // namespace
 }  // namespace nscdd::test
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  int failures = 0;
-  {
-    nscdd::MpiCommunicator communicator(MPI_COMM_WORLD);
-    failures = nscdd::test::Check(&communicator);
-  }
-  MPI_Finalize();
-  return failures == 0 ? 0 : 1;
-}

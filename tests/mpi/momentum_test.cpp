@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Momentum of every step: what the free bodies gain is what gravity and walls give, to rounding, for every solver on 1, 2 and 4
-// ranks (those of one subdomain on one), converged or not. Started on four ranks; smaller numbers of ranks are parts of them.
-
-#include <fmt/format.h>
-#include <mpi.h>
+// Momentum of every step: what the free bodies gain is what gravity and walls give, to rounding, for every solver on every
+// number of ranks (those of one subdomain on one), converged or not.
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
+#include "mpi_test.h"
 #include "nscdd/reference/reference_adapter.h"
 #include "packing.h"
-#include "rank_part.h"
 #include "rows.h"
 
 namespace nscdd::test {
@@ -25,7 +23,8 @@ constexpr double kTolerance = 1e-13;  ///< of the sum of all impulses
 struct Named {
   const char* name;
   AlgorithmOptions options;
-  int most_ranks = 4;
+  bool one_subdomain = false;
+  friend void PrintTo(const Named& solver, std::ostream* out) { *out << solver.name; }
 };
 
 std::vector<Named> Solvers() {
@@ -44,15 +43,15 @@ std::vector<Named> Solvers() {
   FeaOptions fea_cg = fea;
   IeaOptions iea_cg = iea;
   fea_cg.interface.solve = iea_cg.interface.solve = InterfaceSolve::kCg;
-  return {{"nscd", NscdOptions{loose, {}}, 1},
+  return {{"nscd", NscdOptions{loose, {}}, true},
           {"nscdd", NscddOptions{loose, grid, 1, {}}},
-          {"nscdd, plain", NscddOptions{loose, grid, 1, {.method = Acceleration::kNone}}},
+          {"nscdd_plain", NscddOptions{loose, grid, 1, {.method = Acceleration::kNone}}},
           {"fea", fea},
-          {"fea, cg", fea_cg},
+          {"fea_cg", fea_cg},
           {"rea", rea},
           {"iea", iea},
-          {"iea, cg", iea_cg},
-          {"newton", NewtonOptions{}, 1}};
+          {"iea_cg", iea_cg},
+          {"newton", NewtonOptions{}, true}};
 }
 
 /// Sums over the ranks, added in their order.
@@ -104,35 +103,21 @@ double LargestDefect(const Packing& packing, const AlgorithmOptions& options, Co
   return largest;
 }
 
-/// Number of failures, the same on all ranks.
-int Check(const Named& solver, int ranks, int rank) {
-  int failures = 0;
-  OnFirstRanks(ranks, [&](Communicator* communicator) {
-    double largest = 0.0;
-    for (const Packing& packing : {Packing{}, Packing{.clusters = true}, Packing{.restitution = 0.5, .turning_wall = true},
-                                   Packing{.periodic = true}, Packing{.friction = 0.0}}) {
-      largest = std::max(largest, LargestDefect(packing, solver.options, communicator));
-    }
-    failures = !(largest < kTolerance);
-    if (rank == 0) fmt::print("{} {} on {} ranks: {:.1e}\n", failures ? "FAILED" : "ok    ", solver.name, ranks, largest);
-  });
-  MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  return failures;
+using Momentum = MpiTestWithParam<Named>;
+
+TEST_P(Momentum, GainsWhatGravityAndWallsGive) {
+  if (GetParam().one_subdomain && communicator.size() > 1) GTEST_SKIP() << GetParam().name << " has one subdomain";
+  const std::pair<const char*, Packing> packings[] = {{"disks", {}},
+                                                      {"clusters", {.clusters = true}},
+                                                      {"turning wall", {.restitution = 0.5, .turning_wall = true}},
+                                                      {"periodic", {.periodic = true}},
+                                                      {"frictionless", {.friction = 0.0}}};
+  for (const auto& [name, packing] : packings) {
+    EXPECT_LT(LargestDefect(packing, GetParam().options, &communicator), kTolerance) << name;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Momentum, testing::ValuesIn(Solvers()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nscdd::test
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  int failures = 0;
-  for (const auto& solver : nscdd::test::Solvers()) {
-    for (const int ranks : {1, 2, 4}) {
-      if (ranks <= solver.most_ranks) failures += nscdd::test::Check(solver, ranks, rank);
-    }
-  }
-  MPI_Finalize();
-  return failures == 0 ? 0 : 1;
-}

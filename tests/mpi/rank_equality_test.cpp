@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results depend on the number of subdomains, never on the number of ranks: the same bits on 1, 2, 3 and 4 ranks, and without
-// MPI. Started on four ranks; smaller numbers of ranks are parts of them.
+// Results depend on the number of subdomains, never on the number of ranks: the same bits on every number of ranks as without
+// MPI.
 
-#include <fmt/format.h>
-#include <mpi.h>
-
-#include <optional>
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "mpi_test.h"
 #include "packing.h"
-#include "rank_part.h"
 
 namespace nscdd::test {
 namespace {
@@ -19,6 +18,7 @@ struct Case {
   Packing packing;
   SteppingOptions stepping;
   NscddOptions nscdd;
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
 std::vector<Case> Cases() {
@@ -49,39 +49,19 @@ std::vector<Case> Cases() {
           {"qm16", {}, {}, by_qm16}};
 }
 
-/// Number of failures, the same on all ranks.
-int Check(const Case& c, int rank) {
+using RankEquality = MpiTestWithParam<Case>;
+
+TEST_P(RankEquality, SameBitsAsWithoutMpi) {
   constexpr int kSteps = 20;
-  int failures = 0;
+  const Case& c = GetParam();
+  const Outcome outcome = test::Run(c.packing, c.stepping, c.nscdd, kSteps, &communicator);
+  if (communicator.rank() != 0) return;
   SerialCommunicator serial;
-  std::optional<Outcome> expected;
-  if (rank == 0) expected = Run(c.packing, c.stepping, c.nscdd, kSteps, &serial);
-  for (int ranks = 1; ranks <= 4; ++ranks) {
-    OnFirstRanks(ranks, [&](Communicator* communicator) {
-      const Outcome outcome = Run(c.packing, c.stepping, c.nscdd, kSteps, communicator);
-      if (rank != 0) return;
-      const std::string difference = Difference(*expected, outcome);
-      const std::int64_t active = outcome.reports.back().solve.active;
-      std::int64_t migrated = 0;
-      for (const StepReport& r : outcome.reports) migrated += r.migrated_bodies;
-      fmt::print("{} {} on {} ranks: {} active contacts at the end, {} bodies moved between ranks {}\n",
-                 difference.empty() ? "ok    " : "FAILED", c.name, ranks, active, migrated, difference);
-      failures += !difference.empty() || active == 0;
-    });
-  }
-  MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  return failures;
+  EXPECT_EQ(Difference(test::Run(c.packing, c.stepping, c.nscdd, kSteps, &serial), outcome), "");
+  EXPECT_GT(outcome.reports.back().solve.active, 0) << "a test of contacts without any";
 }
+
+INSTANTIATE_TEST_SUITE_P(Packings, RankEquality, testing::ValuesIn(Cases()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nscdd::test
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  int failures = 0;
-  for (const auto& c : nscdd::test::Cases()) failures += nscdd::test::Check(c, rank);
-  MPI_Finalize();
-  return failures == 0 ? 0 : 1;
-}

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -133,24 +131,6 @@ inline std::string RefusalOf(const std::function<void()>& work) {
     return e.what();
   }
   return {};
-}
-
-/// Collective: the number of ranks on which `holds` is false.
-inline int CountFailures(bool holds, Communicator* communicator) {
-  const double mine = holds ? 0.0 : 1.0;
-  int failures = 0;
-  for (const double one : communicator->AllGather({&mine, 1})) failures += one != 0.0;
-  return failures;
-}
-
-/// Prints one line on rank 0; returns the number of failing ranks.
-inline int ReportCheck(const std::string& name, bool holds, Communicator* communicator, const std::string& detail = {}) {
-  const int failures = CountFailures(holds, communicator);
-  if (communicator->rank() == 0 || !holds) {
-    fmt::print("{} {}{}{}\n", failures == 0 ? "ok    " : "FAILED", name,
-               holds ? "" : fmt::format(" on rank {}", communicator->rank()), detail.empty() ? "" : ": " + detail);
-  }
-  return failures;
 }
 
 }  // namespace nscdd::test

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several ranks write one set of results: the same final.csv as one rank, one results.h5, and the same error everywhere.
-// Usage: mpirun -n N mpi_results FOLDER (which is emptied).
-#include <fmt/format.h>
+
 #include <mpi.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
 
+#include "mpi_test.h"
 #include "nscdd/error.h"
 #include "results/final_csv.h"
 #include "results/results_file.h"
@@ -21,12 +20,6 @@ namespace nscdd {
 namespace {
 
 namespace fs = std::filesystem;
-
-void Require(bool condition, const std::string& what) {
-  if (condition) return;
-  fmt::print(stderr, "failed: {}\n", what);
-  MPI_Abort(MPI_COMM_WORLD, 1);
-}
 
 std::string TextOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -59,8 +52,17 @@ ShapeTable ShapesOf(int rank) {
   return shapes;
 }
 
+RunIdentity RunOf(const std::string& scene) {
+  RunIdentity run;
+  run.scene = scene;
+  run.scene_file = scene + ".toml";
+  run.scene_hash = "0";
+  run.version = "0.1.0";
+  return run;
+}
+
 void Write(const fs::path& path, const RankGroup& ranks, int bodies) {
-  ResultsFolder folder(path, {"a", "a.toml", "0", "0.1.0", {}}, ranks);
+  ResultsFolder folder(path, RunOf("a"), ranks);
   StepsCsv steps(&folder);
   steps.Append({});
   steps.Close();
@@ -73,61 +75,65 @@ void Write(const fs::path& path, const RankGroup& ranks, int bodies) {
   folder.Finish();
 }
 
-void CheckResults(const fs::path& base, int bodies) {
-  Require(TextOf(base / "many" / "final.csv") == TextOf(base / "one" / "final.csv"), "final.csv is the same");
-  Require(TextOf(base / "many" / "steps.csv") == TextOf(base / "one" / "steps.csv"), "steps.csv is the same");
-  Require(!fs::exists(base / "one" / "communication.csv"), "one rank communicates with nobody");
-  const ResultsReader many(base / "many"), one(base / "one");
-  Require(many.ReadGrains(7).size() == static_cast<std::size_t>(bodies), "all bodies are in results.h5");
-  Require(many.ReadGrains(7).id == one.ReadGrains(7).id && many.ReadGrains(7).x == one.ReadGrains(7).x, "their columns agree");
-  Require(many.ReadContacts(7).size() == 0, "no contacts");
-  Require(many.ReadShapes().size() == 1 && many.run().scene == "a", "shapes and attributes");
-}
-
-/// One rank fails, or rank 0 does: all throw, and the folder is as before.
-void CheckErrors(const fs::path& base, const RankGroup& ranks) {
-  const auto sentence_of = [](const std::function<void()>& work) {
-    try {
-      work();
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  const int last = ranks.size() - 1;
-  Require(sentence_of([&] {
-            ranks.RunTogether([&] {
-              if (ranks.rank() == last) throw Error("rank " + std::to_string(last));
-            });
-          }) == "rank " + std::to_string(last),
-          "the last rank's error is everybody's");
-  const auto other = [&] { ResultsFolder(base / "many", {"b", "b.toml", "0", "0.1.0", {}}, ranks); };
-  Require(sentence_of(other).find("another folder") != std::string::npos, "another scene is refused on every rank");
-  const auto unwritable = [&] { ResultsFolder("/proc/nscdd", {"b", "b.toml", "0", "0.1.0", {}}, ranks); };
-  Require(sentence_of(unwritable).find("cannot write /proc/nscdd") != std::string::npos, "unwritable on every rank");
-}
-
-int Main(const fs::path& base) {
-  const RankGroup ranks(MPI_COMM_WORLD);
-  constexpr int kBodies = 1000;
-  if (ranks.is_root()) fs::remove_all(base);
-  Write(base / "many", ranks, kBodies);
-  if (ranks.is_root()) {
-    Write(base / "one", RankGroup(), kBodies);
-    CheckResults(base, kBodies);
+/// Has a folder to itself, which is emptied.
+class Results : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (ranks.is_root()) fs::remove_all(base);
+    MPI_Barrier(MPI_COMM_WORLD);
   }
-  CheckErrors(base, ranks);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (ranks.is_root()) fs::remove_all(base);
-  return 0;
+  void TearDown() override {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (ranks.is_root()) fs::remove_all(base);
+  }
+
+  static constexpr int kBodies = 1000;
+  const RankGroup ranks{MPI_COMM_WORLD};
+  const fs::path base = RESULTS_FOLDER "_" + std::to_string(ranks.size());
+};
+
+TEST_F(Results, OfAllRanksAreThoseOfOne) {
+  Write(base / "many", ranks, kBodies);
+  if (!ranks.is_root()) return;
+  Write(base / "one", RankGroup(), kBodies);
+  EXPECT_EQ(TextOf(base / "many" / "final.csv"), TextOf(base / "one" / "final.csv"));
+  EXPECT_EQ(TextOf(base / "many" / "steps.csv"), TextOf(base / "one" / "steps.csv"));
+  EXPECT_FALSE(fs::exists(base / "one" / "communication.csv")) << "one rank communicates with nobody";
+  const ResultsReader many(base / "many"), one(base / "one");
+  EXPECT_EQ(many.ReadGrains(7).size(), static_cast<std::size_t>(kBodies));
+  EXPECT_EQ(many.ReadGrains(7).id, one.ReadGrains(7).id);
+  EXPECT_EQ(many.ReadGrains(7).x, one.ReadGrains(7).x);
+  EXPECT_EQ(many.ReadContacts(7).size(), 0U);
+  EXPECT_EQ(many.ReadShapes().size(), 1U);
+  EXPECT_EQ(many.run().scene, "a");
+}
+
+std::string RefusalOf(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(Results, TheLastRanksErrorIsEverybodys) {
+  const std::string sentence = "rank " + std::to_string(ranks.size() - 1);
+  EXPECT_EQ(RefusalOf([&] {
+              ranks.RunTogether([&] {
+                if (ranks.rank() == ranks.size() - 1) throw Error(sentence);
+              });
+            }),
+            sentence);
+}
+
+TEST_F(Results, WhatRankZeroRefusesAllRefuse) {
+  Write(base / "many", ranks, kBodies);
+  const auto other = [&] { ResultsFolder(base / "many", RunOf("b"), ranks); };
+  EXPECT_TRUE(test::Says(RefusalOf(other), "another folder"));
+  const auto unwritable = [&] { ResultsFolder("/proc/nscdd", RunOf("b"), ranks); };
+  EXPECT_TRUE(test::Says(RefusalOf(unwritable), "cannot write /proc/nscdd"));
 }
 
 }  // namespace
 }  // namespace nscdd
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  const int status = argc == 2 ? nscdd::Main(argv[1]) : 1;
-  MPI_Finalize();
-  return status;
-}

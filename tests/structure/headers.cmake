@@ -36,7 +36,8 @@ file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/headers/nscdd_plugin.h.c CONTE
 
 add_library(headers_self_contained OBJECT ${alone} ${CMAKE_CURRENT_BINARY_DIR}/headers/nscdd_plugin.h.c)
 target_include_directories(headers_self_contained PRIVATE ${PROJECT_SOURCE_DIR}/core/src ${PROJECT_SOURCE_DIR}/plugin/host)
-target_link_libraries(headers_self_contained PRIVATE nscdd::core nscdd::reference nscdd::box2d nscdd::callback nscdd::conformance
-  nscdd_options nscdd::host nscdd::scene nscdd::results nscdd::checkpoint nscdd::render nscdd::problem nscdd::tradeoff nscdd::auto
-  nscdd::extremes Eigen3::Eigen MPI::MPI_CXX fmt::fmt nscdd_build_flags)
+target_link_libraries(headers_self_contained PRIVATE
+  nscdd::core nscdd::reference nscdd::box2d nscdd::callback nscdd::conformance nscdd_options nscdd::host nscdd::scene
+  nscdd::results nscdd::checkpoint nscdd::render nscdd::problem nscdd::tradeoff nscdd::auto nscdd::extremes
+  Eigen3::Eigen MPI::MPI_CXX fmt::fmt nscdd_build_flags)
 target_compile_options(headers_self_contained PRIVATE -O0)  # nothing of it is run
