@@ -154,10 +154,11 @@ TEST(FinalCsv, ChunksGiveTheSameFile) {
   const TemporaryFolder folder;
   GrainTable grains;
   for (std::int64_t i = 0; i < 1000; ++i) grains.id.push_back((i * 7919) % 1000 * 9'000'000'000'000'000);
-  for (auto* column : {&grains.x, &grains.y, &grains.angle, &grains.vx, &grains.vy, &grains.spin}) {
+  for (auto* column : {&grains.x, &grains.y, &grains.angle, &grains.vx, &grains.vy, &grains.spin, &grains.radius}) {
     column->resize(1000);
     std::iota(column->begin(), column->end(), 0.5);
   }
+  grains.kind.resize(1000);
   const auto text_with = [&](int rows_at_a_time) {
     ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
     WriteFinalCsv(&results, grains, AllDisks, rows_at_a_time);

@@ -200,7 +200,7 @@ TEST_P(BadDiskFile, IsRefusedWithFileAndLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadDiskFile,
     testing::Values(BadCsv{"empty", "", 1, "must name the columns"},
-                    BadCsv{"only_comments", "# x y r\n\n", 2, "no line with names or numbers"},
+                    BadCsv{"only_comments", "# x y r\n# no more", 2, "no line with names or numbers"},
                     BadCsv{"column", "x,y,radios\n", 1, "did you mean 'radius' by 'radios'?"},
                     BadCsv{"no_column", "x,y\n0,0\n", 1, "column 'radius' is missing"},
                     BadCsv{"column_twice", "x,y,x,radius\n", 1, "'x' is there twice"},
