@@ -102,12 +102,11 @@ def draw(folder, picture):
     shown.RescaleTransferFunctionToDataRange(False)
 
     chains = simple.Threshold(Input=reader, Scalars=["CELLS", "force_n"], LowerThreshold=1e-300, UpperThreshold=1e300)
-    surface = simple.ExtractSurface(Input=simple.MergeBlocks(Input=chains))  # Tube dies on blocks without force_n
-    points = simple.CellDatatoPointData(Input=surface)
+    points = simple.CellDatatoPointData(Input=simple.MergeBlocks(Input=chains))
     points.UpdatePipeline(time)
     largest = points.PointData["force_n"].GetRange()[1] if points.PointData.GetArray("force_n") else 1.0
     radius = numpy.mean([b for b in grains.PointData["radius"].GetRange()])
-    tubes = simple.Tube(Input=points, Scalars=["POINTS", "force_n"], VaryRadius="By Scalar", Radius=0.02 * radius,
+    tubes = simple.Tube(Input=simple.ExtractSurface(Input=points), Scalars=["POINTS", "force_n"], VaryRadius="By Scalar", Radius=0.02 * radius,
                         RadiusFactor=25.0)
     red = simple.Show(tubes, view)
     red.AmbientColor = red.DiffuseColor = [0.75, 0.05, 0.05]
