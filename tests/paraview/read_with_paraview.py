@@ -105,9 +105,9 @@ def draw(folder, picture):
     points = simple.CellDatatoPointData(Input=simple.MergeBlocks(Input=chains))
     points.UpdatePipeline(time)
     largest = points.PointData["force_n"].GetRange()[1] if points.PointData.GetArray("force_n") else 1.0
-    radius = numpy.mean([b for b in grains.PointData["radius"].GetRange()])
-    tubes = simple.Tube(Input=simple.ExtractSurface(Input=points), Scalars=["POINTS", "force_n"], VaryRadius="By Scalar", Radius=0.02 * radius,
-                        RadiusFactor=25.0)
+    radius = numpy.mean(grains.PointData["radius"].GetRange())
+    tubes = simple.Tube(Input=simple.ExtractSurface(Input=points), Scalars=["POINTS", "force_n"], VaryRadius="By Scalar",
+                        Radius=0.02 * radius, RadiusFactor=25.0)
     red = simple.Show(tubes, view)
     red.AmbientColor = red.DiffuseColor = [0.75, 0.05, 0.05]
     simple.ColorBy(red, ("POINTS", ""))
@@ -123,7 +123,7 @@ def draw(folder, picture):
     simple.Render(view)
     simple.SaveScreenshot(picture, view)
     print(f"{picture}: t = {time}, largest normal force {largest:.4g} N", flush=True)
-    os._exit(0)  # with Xvfb, leaving the ordinary way may hang
+    os._exit(0)  # leaving the ordinary way ends with an X error under Xvfb
 
 
 def main():
@@ -139,8 +139,8 @@ def main():
     failed = 0
     for folder in arguments.folders:
         for reader in READERS:
-            done = subprocess.run(["pvpython", "--force-offscreen-rendering", os.path.abspath(__file__), "--reader", reader, folder],
-                                  capture_output=True, text=True, check=False)
+            command = ["pvpython", "--force-offscreen-rendering", os.path.abspath(__file__), "--reader", reader, folder]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
             print(done.stdout, end="")
             if done.returncode != 0:
                 failed += 1

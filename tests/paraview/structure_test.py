@@ -105,10 +105,11 @@ centre = [0.0, 1.0]""", 1)
             self.assertTrue(numpy.allclose(contacts["force"][pair[0, 1]], [0.0, weight, 0.0], atol=1e-9 * weight))
 
     def test_times_and_the_initial_state(self):
-        folder, _ = self.check_scene(self.write("test.toml", TWO_DISKS.replace("dt = 0.01", "dt = 0.1")))
+        folder, _ = self.check_scene(self.write("test.toml", TWO_DISKS.replace("dt = 0.01", "dt = 0.1")), steps=12)
         with h5py.File(folder / "results.h5") as file:
-            self.assertEqual(list(file["steps"]), ["000000", "000001", "000002", "000004"])
+            self.assertEqual(list(file["steps"]), ["000000", "000001", "000006", "000012"])
             self.assertEqual(file.attrs["dt"], 0.1)
+            self.assertEqual(file["steps/000006"].attrs["time"], 6 * 0.1)  # which is not 0.1 + 0.1 + ...
             initial = file["steps/000000"]
             self.assertEqual(initial.attrs["time"], 0.0)
             self.assertEqual(initial.attrs["mean_radius"], 1.0)
