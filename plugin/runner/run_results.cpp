@@ -92,7 +92,45 @@ GrainTable MakeGrainTable(const Solver& solver) {
   return g;
 }
 
-ContactRows MakeContactRows(const Solver& solver) {
+GrainTable MakeGrainTable(PlatformAdapter* adapter) {
+  BodyTable bodies;
+  adapter->ReadBodies(&bodies);
+  GrainTable g;
+  g.id = bodies.id;
+  g.radius = bodies.radius;
+  g.multiplicity.assign(bodies.size(), 0);
+  g.subdomain.assign(bodies.size(), -1);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    g.kind.push_back(static_cast<std::uint8_t>(bodies.kind[i]));
+    g.x.push_back(bodies.pose[i].x);
+    g.y.push_back(bodies.pose[i].y);
+    g.angle.push_back(bodies.pose[i].angle);
+    g.vx.push_back(bodies.velocity[i].vx);
+    g.vy.push_back(bodies.velocity[i].vy);
+    g.spin.push_back(bodies.velocity[i].spin);
+  }
+  return g;
+}
+
+double MeanRadius(const GrainTable& grains, const RankGroup& ranks) {
+  double largest = 0.0;
+  for (const double radius : grains.radius) largest = std::max(largest, radius);
+  largest = -ranks.MinOfReals(-largest);
+  if (!(largest > 0.0)) return 0.0;
+  // Whole numbers have the same sum in any order, so on any number of ranks.
+  constexpr double kUnits = 0x1p32;
+  std::int64_t sum = 0, count = 0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    if (grains.kind[i] != 0) continue;
+    sum += std::llround(grains.radius[i] / largest * kUnits);
+    ++count;
+  }
+  sum = ranks.Sum(sum);
+  count = ranks.Sum(count);
+  return count == 0 ? 0.0 : largest * (static_cast<double>(sum) / kUnits / static_cast<double>(count));
+}
+
+ContactRows MakeContactRows(const Solver& solver, double dt) {
   const TableView t = solver.Table("contacts");
   ContactRows c;
   Copy(t, "body_a", &c.body_a);
@@ -106,12 +144,21 @@ ContactRows MakeContactRows(const Solver& solver) {
   Copy(t, "normal_y", &c.normal_y);
   Copy(t, "point_x", &c.point_x);
   Copy(t, "point_y", &c.point_y);
+  Copy(t, "lever_a", &c.lever_a);
+  Copy(t, "lever_b", &c.lever_b);
   Copy(t, "impulse_n", &c.impulse_n);
   Copy(t, "impulse_t", &c.impulse_t);
   Copy(t, "velocity_n", &c.velocity_n);
   Copy(t, "velocity_t", &c.velocity_t);
   Copy(t, "status", &c.status);
   Copy(t, "subdomain", &c.subdomain);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Vec2 force{c.impulse_n[i] / dt, c.impulse_t[i] / dt}, normal{c.normal_x[i], c.normal_y[i]};
+    c.force_n.push_back(force.x);
+    c.force_t.push_back(force.y);
+    c.force_x.push_back(force.x * normal.x + force.y * normal.y);  // the tangent is (n_y, -n_x)
+    c.force_y.push_back(force.x * normal.y - force.y * normal.x);
+  }
   return c;
 }
 

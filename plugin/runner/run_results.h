@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "nscdd/host/solver.h"
+#include "nscdd/platform_adapter.h"
+#include "results/rank_group.h"
 #include "results/result_tables.h"
 #include "results/step_row.h"
 #include "scene/body_stream.h"
@@ -12,9 +14,14 @@ namespace nscdd {
 
 StepRow MakeStepRow(const StepReport& report);
 
-/// This rank's bodies and contacts after the last step, from the plugin's tables.
+/// This rank's bodies and contacts after the last step, of length `dt` [s], from the plugin's tables.
 GrainTable MakeGrainTable(const Solver& solver);
-ContactRows MakeContactRows(const Solver& solver);
+ContactRows MakeContactRows(const Solver& solver, double dt);
+
+/// The bodies of this rank's host before the first step: no contacts, hence multiplicity 0, and no partition, subdomain -1.
+GrainTable MakeGrainTable(PlatformAdapter* adapter);
+/// [m] of the free bodies of all ranks, to 2^-32 of the largest radius. Collective.
+double MeanRadius(const GrainTable& grains, const RankGroup& ranks);
 
 /// Adds the shapes of a body that is more than one centred disk.
 void AddShapes(const BodyDefinition& body, ShapeTable* shapes);

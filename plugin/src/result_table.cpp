@@ -44,6 +44,8 @@ constexpr Column<C> kContactColumns[] = {
     {"normal_y", "-", nullptr, [](const C& r, std::size_t i) { return r.normal[i].y; }},
     {"point_x", "m", nullptr, [](const C& r, std::size_t i) { return r.point[i].x; }},
     {"point_y", "m", nullptr, [](const C& r, std::size_t i) { return r.point[i].y; }},
+    {"lever_a", "m", nullptr, [](const C& r, std::size_t i) { return r.lever_a[i]; }},
+    {"lever_b", "m", nullptr, [](const C& r, std::size_t i) { return r.lever_b[i]; }},
     {"impulse_n", "N s", nullptr, [](const C& r, std::size_t i) { return r.impulse[i].x; }},
     {"impulse_t", "N s", nullptr, [](const C& r, std::size_t i) { return r.impulse[i].y; }},
     {"velocity_n", "m/s", nullptr, [](const C& r, std::size_t i) { return r.relative_velocity[i].x; }},

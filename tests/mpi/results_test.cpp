@@ -69,7 +69,7 @@ void Write(const fs::path& path, const RankGroup& ranks, int bodies) {
   const GrainTable grains = GrainsOf(ranks.rank(), ranks.size(), bodies);
   WriteFinalCsv(
       &folder, grains, [](std::int64_t) { return std::string_view(); }, 100);
-  ResultsFile file(&folder, {"a", "nscdd", "0.1.0", 2, 2, 0.0, 0.0}, ShapesOf(ranks.rank()));
+  ResultsFile file(&folder, {"a", "nscdd", "0.1.0", 2, 2, 0.0, 0.0, 0.1}, ShapesOf(ranks.rank()));
   file.Save({7, 0.7, 0.1}, grains, {});
   file.Close();
   folder.Finish();

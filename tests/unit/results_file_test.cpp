@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// results.h5 as our reader and as h5py see it, and results.xdmf.
+// results.h5 as our reader and as h5py see it; results.xdmf: tests/paraview.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 void WriteSample(const fs::path& folder) {
   ResultsFolder results(folder, IdentityOf("sample"), RankGroup());
-  ResultsFile file(&results, {"sample", "nscdd", "0.1.0", 2, 3, 8.0, -1.0}, SampleShapes());
+  ResultsFile file(&results, {"sample", "nscdd", "0.1.0", 2, 3, 8.0, -1.0, 0.25}, SampleShapes());
   file.Save({1, 0.25, 1.0}, SampleGrains(), {});
   file.Save({50, 12.5, 1.0}, SampleGrains(), SampleContacts());
   file.Close();
@@ -25,7 +25,7 @@ void WriteSample(const fs::path& folder) {
 
 /// The same in three segments, the last of which is written twice, as after a kill.
 void WriteInSegments(const fs::path& folder) {
-  const RunDescription run{"sample", "nscdd", "0.1.0", 2, 3, 8.0, -1.0};
+  const RunDescription run{"sample", "nscdd", "0.1.0", 2, 3, 8.0, -1.0, 0.25};
   ResultsFolder results(folder, IdentityOf("sample"), RankGroup());
   std::vector<FileExtent> kept;
   {
@@ -38,7 +38,7 @@ void WriteInSegments(const fs::path& folder) {
   }
   EXPECT_EQ(kept.size(), 2u);
   for (const FileExtent& extent : kept) EXPECT_NO_THROW(CheckExtent(folder, extent));
-  ResultsFile file(&results, run, kept);
+  ResultsFile file(&results, run, SampleShapes(), kept);
   file.Save({50, 12.5, 1.0}, SampleGrains(), SampleContacts());
   file.Close();
   results.Finish();
@@ -69,6 +69,7 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(reader.run().subdomains_y, 3);
   EXPECT_EQ(reader.run().period, 8.0);
   EXPECT_EQ(reader.run().period_origin, -1.0);
+  EXPECT_EQ(reader.run().dt, 0.25);
   EXPECT_EQ(reader.steps(), (std::vector<std::int64_t>{1, 50}));
   EXPECT_EQ(reader.ReadStep(50).time, 12.5);
   EXPECT_EQ(reader.ReadStep(50).mean_radius, 1.0);
@@ -85,6 +86,8 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(contacts.shape_b, expected.shape_b);
   EXPECT_EQ(contacts.final_gap, expected.final_gap);
   EXPECT_EQ(contacts.impulse_n, expected.impulse_n);
+  EXPECT_EQ(contacts.point_x, expected.point_x);
+  EXPECT_EQ(contacts.force_y, expected.force_y);
   EXPECT_EQ(contacts.velocity_t, expected.velocity_t);
   EXPECT_EQ(contacts.status, expected.status);
   EXPECT_EQ(reader.ReadContacts(1).size(), 0u);
@@ -120,7 +123,23 @@ TEST(ResultsFile, ForeignFileIsASentence) {
   EXPECT_NE(sentence.find((folder.path() / "results.h5").string()), std::string::npos) << sentence;
 }
 
-TEST(ResultsFile, H5pyReadsItAndXdmfNamesWhatIsThere) {
+TEST(ResultsFile, XdmfHasTheSameBlocksAtEachTime) {
+  const TemporaryFolder folder;
+  WriteSample(folder.path());
+  const std::string text = TextOf(folder.path() / "results.xdmf");
+  const auto count = [&](const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("CollectionType=\"Temporal\""), 4u);
+  EXPECT_EQ(count("<Time Value=\"0.25\"/>"), 4u);
+  EXPECT_EQ(count("<Time Value=\"12.5\"/>"), 4u);
+  EXPECT_EQ(count("/steps/000001/disks/position"), 1u);  // a body of several shapes is there
+  EXPECT_EQ(count("NumberOfElements=\"0\""), 2u);        // no contacts at the first
+}
+
+TEST(ResultsFile, H5pyReadsIt) {
   if (std::system("/usr/bin/python3 -c 'import h5py' 2> /dev/null") != 0) GTEST_SKIP() << "python3-h5py is not installed";
   const TemporaryFolder folder;
   WriteSample(folder.path());
@@ -129,25 +148,16 @@ import h5py, os, sys
 import xml.etree.ElementTree as xml
 os.chdir(sys.argv[1])
 f = h5py.File("results.h5", "r")
-assert f.attrs["scene"] == "sample" and f.attrs["format_version"] == 1 and f.attrs["period"] == 8.0
+assert f.attrs["scene"] == "sample" and f.attrs["format_version"] == 2 and f.attrs["dt"] == 0.25 and f.attrs["period"] == 8.0
 assert list(f["steps"]) == ["000001", "000050"]
 step = f["steps/000050"]
 assert step.attrs["time"] == 12.5 and step.attrs["step"] == 50
 assert sorted(step["grains/id"][:]) == [7, 9, 30, 40]
-assert step["grains/x"].attrs["unit"] == "m" and step["contacts/impulse_n"].attrs["unit"] == "N s"
+assert step["grains/position"].attrs["unit"] == "m" and step["grains/position"].shape == (4, 3)
+assert step["contacts/impulse_n"].attrs["unit"] == "N s"
 assert list(step["contacts/impulse_n"][:]) == [2.0, 0.0, 1.0]
 assert list(f["shapes/kind"][:]) == [0, 1]
-items = 0
-for item in xml.parse("results.xdmf").iter("DataItem"):
-    name, path = item.text.split(":")
-    data = h5py.File(name, "r")[path]
-    assert data.shape == (int(item.get("Dimensions")),), path
-    assert data.dtype.itemsize == int(item.get("Precision")), path
-    assert {"f": "Float", "i": "Int", "u": "UChar"}[data.dtype.kind] == item.get("NumberType"), path
-    items += 1
-assert items == 2 * (2 + 11) + (2 + 17), items
-times = [t.get("Value") for t in xml.parse("results.xdmf").iter("Time")]
-assert times == ["0.25", "12.5", "12.5"], times
+assert list(step["contacts/force"][2]) == [0.8, -4.0, 0.0]
 )";
   const std::string command =
       "/usr/bin/python3 '" + (folder.path() / "check.py").string() + "' '" + folder.path().string() + "'";

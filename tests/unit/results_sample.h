@@ -78,8 +78,14 @@ inline ContactRows SampleContacts() {
   contacts.normal_y = {0.0, 0.0, -1.0};
   contacts.point_x = {2.0, 4.0, 3.0};
   contacts.point_y = {1.0, 1.0, 0.0};
+  contacts.lever_a = {1.0, 1.0, 1.0};
+  contacts.lever_b = {1.0, 1.0, 0.0};
   contacts.impulse_n = {2.0, 0.0, 1.0};
   contacts.impulse_t = {0.1, 0.0, -0.2};
+  contacts.force_n = {8.0, 0.0, 4.0};  // in steps of 0.25 s
+  contacts.force_t = {0.4, 0.0, -0.8};
+  contacts.force_x = {8.0, 0.0, 0.8};
+  contacts.force_y = {-0.4, 0.0, -4.0};
   contacts.velocity_n = {0.0, 0.3, 0.0};
   contacts.velocity_t = {0.0, 0.0, 0.1};
   contacts.status = {1, 0, 2};

@@ -36,6 +36,8 @@ struct ContactResults {
   std::vector<double> final_gap;  ///< [m] at the end of the step
   std::vector<Vec2> normal;
   std::vector<Vec2> point;              ///< [m] where the impulse acts, at the detection configuration
+  std::vector<double> lever_a;          ///< [m] A's disk has its centre at point - lever_a n, B's at point + lever_b n;
+  std::vector<double> lever_b;          ///< 0 for other shapes
   std::vector<Vec2> impulse;            ///< (r_n, r_t) [N s]
   std::vector<Vec2> relative_velocity;  ///< (v_n, v_t) [m/s] at the end of the step
   std::vector<ContactStatus> status;

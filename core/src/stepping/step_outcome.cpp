@@ -49,6 +49,8 @@ void AddContact(const Population& population, const StepTables& tables, const Gr
   out->final_gap.push_back(FinalGap(t, c, qa, qb, end_a, end_b, shift));
   out->normal.push_back(t.normal[c]);
   out->point.push_back(Centre(qa) + (t.has_arms() ? t.arm_a[c] : Vec2{}) + t.lever_a[c] * t.normal[c]);
+  out->lever_a.push_back(t.lever_a[c]);
+  out->lever_b.push_back(t.lever_b[c]);
   out->impulse.push_back(tables.impulse[c]);
   out->relative_velocity.push_back(tables.relative_velocity[c]);
   out->status.push_back(StatusOf(tables.impulse[c], t.friction[c]));
@@ -66,8 +68,8 @@ StepOutcome MoveBodies(const Population& population, const StepTables& tables, c
   StepOutcome outcome;
   AddBodies(population, tables, grid, half, rank, &outcome.bodies);
   ContactResults& c = outcome.contacts;
-  Reserve(tables.contacts.size(), &c.key, &c.gap, &c.final_gap, &c.normal, &c.point, &c.impulse, &c.relative_velocity,
-          &c.status, &c.subdomain);
+  Reserve(tables.contacts.size(), &c.key, &c.gap, &c.final_gap, &c.normal, &c.point, &c.lever_a, &c.lever_b, &c.impulse,
+          &c.relative_velocity, &c.status, &c.subdomain);
   for (std::size_t e = 0; e < tables.chosen.rows.size(); ++e) {
     for (const std::int32_t row : tables.chosen.rows[e]) AddContact(population, tables, grid, half, row, &c);
     c.subdomain.resize(c.size(), tables.chosen.first + static_cast<std::int32_t>(e));

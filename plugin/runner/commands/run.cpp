@@ -69,6 +69,7 @@ class SceneRun {
   void BeginCheckpoints();
   Ending StepsOrHint();
   Ending Steps();
+  void SaveInitialState();
   void Save(const StepRow& row);
   void NoteDeepOverlaps(double mean_radius);
   void CloseResults();
@@ -120,6 +121,7 @@ void SceneRun::OpenResults() {
   run.scene = plan_.scene.name;
   run.solver = plan_.choice.name;
   run.version = NSCDD_VERSION;
+  run.dt = plan_.scene.time.dt;
   run.subdomains_x = plan_.subdomains_x;
   run.subdomains_y = plan_.subdomains_y;
   if (plan_.scene.periodic) {
@@ -132,7 +134,7 @@ void SceneRun::OpenResults() {
         [&] { ForEachStepRow(folder_->path(), resume_->head().tables, [&](const StepRow& row) { summary_.Add(row); }); });
     seconds_before_ = summary_.seconds_steps;
     csv_ = std::make_unique<StepsCsv>(folder_.get(), resume_->head().tables);
-    file_ = std::make_unique<ResultsFile>(folder_.get(), run, resume_->head().segments);
+    file_ = std::make_unique<ResultsFile>(folder_.get(), run, shapes_, resume_->head().segments);
   } else {
     std::filesystem::path out = request_.out;
     if (out.empty()) out = plan_.scene.output.dir;
@@ -142,6 +144,7 @@ void SceneRun::OpenResults() {
     file_ = std::make_unique<ResultsFile>(
         folder_.get(), run, shapes_,
         plan_.record.checkpoint_every > 0 ? ResultsFile::Mode::kSegments : ResultsFile::Mode::kWhole);
+    SaveInitialState();
   }
   summary_.scene = plan_.scene.name;
   summary_.adapter = plan_.record.adapter;
@@ -216,8 +219,16 @@ SceneRun::Ending SceneRun::Steps() {
   return Ending::kFinished;
 }
 
+void SceneRun::SaveInitialState() {
+  GrainTable grains;
+  ranks_.RunTogether([&] { grains = MakeGrainTable(&platform_->adapter()); });
+  file_->Save({0, 0.0, MeanRadius(grains, ranks_)}, grains, {});
+}
+
 void SceneRun::Save(const StepRow& row) {
-  file_->Save({row.step, row.time, row.mean_radius}, MakeGrainTable(*solver_), MakeContactRows(*solver_));
+  const double dt = plan_.scene.time.dt;
+  file_->Save({row.step, static_cast<double>(row.step) * dt, row.mean_radius}, MakeGrainTable(*solver_),
+              MakeContactRows(*solver_, dt));
 }
 
 /// Deep overlaps at the start are legal, and worth a word: a tenth of the mean radius is no rounding.

@@ -114,7 +114,8 @@ void CheckInputs(const std::vector<InputFile>& inputs) {
 
 RunIdentity IdentityOf(const RunPlan& plan, int ranks) {
   const RunRecord& run = plan.record;
-  RunIdentity identity{plan.scene.name, run.scene_file, run.scene_hash, run.program, {}, plan.scene.notes.sentences};
+  RunIdentity identity{plan.scene.name,   run.scene_file, run.scene_hash, run.program, {}, plan.scene.notes.sentences,
+                       plan.scene.time.dt};
   identity.settings = {
       {"adapter", run.adapter}, {"ranks", std::to_string(ranks)}, {"steps", std::to_string(run.steps)}, {"solver", run.solver}};
   if (run.checkpoint_every > 0) identity.settings.emplace_back("checkpoint_every", std::to_string(run.checkpoint_every));

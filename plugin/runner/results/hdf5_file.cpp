@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/hdf5_file.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <memory>
 
 #include "nscdd/error.h"
@@ -57,25 +60,54 @@ std::vector<std::string> Hdf5File::Names(const Hdf5Handle& group) const {
   return names;
 }
 
-void Hdf5File::WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
-                           const RowRange& rows) {
-  const Hdf5Handle space(H5Screate_simple(1, &rows.total, nullptr), H5Sclose, Writing());
+void Hdf5File::WriteTable(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
+                          const RowRange& rows, hsize_t width) {
+  const int rank = width > 1 ? 2 : 1;
+  const hsize_t first[] = {rows.first, 0}, count[] = {rows.count, width}, total[] = {rows.total, width};
+  const Hdf5Handle space(H5Screate_simple(rank, total, nullptr), H5Sclose, Writing());
   const Hdf5Handle column(H5Dcreate2(group.id(), name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
                           Writing());
   if (*unit != '\0') WriteAttribute(column, "unit", unit);
   if (rows.total == 0) return;
 
-  const Hdf5Handle memory(H5Screate_simple(1, &rows.count, nullptr), H5Sclose, Writing());
+  const Hdf5Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose, Writing());
   const Hdf5Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, Writing());
   if (parallel_) CheckHdf5(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), Writing());
   if (rows.count == 0) {
     CheckHdf5(H5Sselect_none(space.id()), Writing());
   } else {
-    CheckHdf5(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &rows.first, nullptr, &rows.count, nullptr), Writing());
+    CheckHdf5(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, first, nullptr, count, nullptr), Writing());
   }
   // A write may fail on one rank alone, and then none may go on to the next collective call.
   ranks_.RunTogether([&] { CheckHdf5(H5Dwrite(column.id(), type, memory.id(), space.id(), transfer.id(), data), Writing()); });
 }
+
+void Hdf5File::WriteVectors(const Hdf5Handle& group, const char* name, const char* unit, const std::vector<double>& x,
+                            const std::vector<double>& y, const RowRange& rows) {
+  std::vector<std::array<double, 3>> vectors(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) vectors[i] = {x[i], y[i], 0.0};
+  WriteTable(group, name, unit, H5T_NATIVE_DOUBLE, vectors.data(), rows, 3);
+}
+
+void Hdf5File::ReadVectors(const Hdf5Handle& group, const char* name, std::vector<double>* x, std::vector<double>* y) const {
+  const Hdf5Handle data = OpenColumn(group, name);
+  const Hdf5Handle space(H5Dget_space(data.id()), H5Sclose, Reading(name));
+  hsize_t extent[2] = {0, 0};
+  if (H5Sget_simple_extent_ndims(space.id()) == 2) H5Sget_simple_extent_dims(space.id(), extent, nullptr);
+  if (extent[1] != 3) {
+    throw Error(fmt::format("{} is damaged: {} must have three components a row; run the scene again.", path_.string(), name));
+  }
+  std::vector<std::array<double, 3>> vectors(extent[0]);
+  Read(data, H5T_NATIVE_DOUBLE, vectors.data());
+  x->clear();
+  y->clear();
+  for (const auto& vector : vectors) {
+    x->push_back(vector[0]);
+    y->push_back(vector[1]);
+  }
+}
+
+bool Hdf5File::Has(const Hdf5Handle& group, const char* name) const { return H5Lexists(group.id(), name, H5P_DEFAULT) > 0; }
 
 void Hdf5File::Copy(const Hdf5File& from, const std::string& name) {
   CheckHdf5(H5Ocopy(from.file_.id(), name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), Writing());

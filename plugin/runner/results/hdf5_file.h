@@ -58,7 +58,15 @@ class Hdf5File {
   template <class T>
   void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, const std::vector<T>& column,
                    const RowRange& rows) {
-    WriteColumn(group, name, unit, Hdf5TypeOf<T>(), column.data(), rows);
+    WriteTable(group, name, unit, Hdf5TypeOf<T>(), column.data(), rows, 1);
+  }
+  /// Plane vectors as rows (x, y, 0).
+  void WriteVectors(const Hdf5Handle& group, const char* name, const char* unit, const std::vector<double>& x,
+                    const std::vector<double>& y, const RowRange& rows);
+  /// `width` numbers a row.
+  void WriteRows(const Hdf5Handle& group, const char* name, const std::vector<std::int32_t>& numbers, const RowRange& rows,
+                 int width) {
+    WriteTable(group, name, "", H5T_NATIVE_INT32, numbers.data(), rows, static_cast<hsize_t>(width));
   }
   template <class T>
   void ReadColumn(const Hdf5Handle& group, const char* name, std::vector<T>* column) const {
@@ -66,10 +74,12 @@ class Hdf5File {
     column->resize(RowsOf(data));
     Read(data, Hdf5TypeOf<T>(), column->data());
   }
+  void ReadVectors(const Hdf5Handle& group, const char* name, std::vector<double>* x, std::vector<double>* y) const;
 
   /// A text of fixed length as a data set of its own.
   void WriteText(const Hdf5Handle& group, const char* name, const std::string& text);
   std::uint64_t RowsOf(const Hdf5Handle& group, const char* name) const { return RowsOf(OpenColumn(group, name)); }
+  bool Has(const Hdf5Handle& group, const char* name) const;
 
   void WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text);
   void WriteAttribute(const Hdf5Handle& object, const char* name, double value);
@@ -85,8 +95,8 @@ class Hdf5File {
  private:
   Hdf5File(const std::filesystem::path& path, const RankGroup& ranks);
 
-  void WriteColumn(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
-                   const RowRange& rows);
+  void WriteTable(const Hdf5Handle& group, const char* name, const char* unit, hid_t type, const void* data,
+                  const RowRange& rows, hsize_t width);
   void WriteScalar(const Hdf5Handle& object, const char* name, hid_t type, const void* value);
   void ReadScalar(const Hdf5Handle& object, const char* name, hid_t type, void* value) const;
   Hdf5Handle OpenColumn(const Hdf5Handle& group, const char* name) const;

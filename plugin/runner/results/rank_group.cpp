@@ -55,6 +55,24 @@ std::int64_t RankGroup::Min(std::int64_t value) const {
   return value;
 }
 
+double RankGroup::MinOfReals(double value) const {
+  if (!is_serial()) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MIN, communicator_);
+  return value;
+}
+
+void RankGroup::ShowToAll(std::span<const std::byte> bytes, const std::function<void(std::span<const std::byte>)>& take) const {
+  if (is_serial()) return take(bytes);
+  std::vector<std::byte> shown;
+  for (int speaker = 0; speaker < size_; ++speaker) {
+    auto count = static_cast<std::int64_t>(bytes.size());
+    MPI_Bcast(&count, 1, MPI_INT64_T, speaker, communicator_);
+    shown.assign(bytes.begin(), bytes.end());
+    shown.resize(static_cast<std::size_t>(count));
+    MPI_Bcast(shown.data(), static_cast<int>(count), MPI_BYTE, speaker, communicator_);
+    take(shown);
+  }
+}
+
 std::int64_t RankGroup::SumOfLowerRanks(std::int64_t value) const {
   std::int64_t sum = 0;
   if (!is_serial()) MPI_Exscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, communicator_);

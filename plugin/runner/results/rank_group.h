@@ -35,10 +35,13 @@ class RankGroup {
 
   std::int64_t Sum(std::int64_t value) const;
   std::int64_t Min(std::int64_t value) const;
+  double MinOfReals(double value) const;
   /// Sum of `value` over the lower ranks.
   std::int64_t SumOfLowerRanks(std::int64_t value) const;
   /// All ranks' bytes one behind the other on rank 0, empty elsewhere. Less than 2 GiB in all.
   std::vector<std::byte> GatherOnRoot(const std::vector<std::byte>& bytes) const;
+  /// Calls `take` on every rank with each rank's bytes in order of rank; holds those of one. Less than 2 GiB a rank.
+  void ShowToAll(std::span<const std::byte> bytes, const std::function<void(std::span<const std::byte>)>& take) const;
   /// Calls `take` on rank 0 with each rank's bytes in order of rank, in pieces; holds one piece. Throws Error on all ranks if
   /// `take` did.
   void PassToRoot(std::span<const std::byte> bytes, const std::function<void(std::span<const std::byte>)>& take) const;

@@ -5,17 +5,18 @@
 
 namespace nscdd {
 
+inline constexpr std::int64_t kResultsFormatVersion = 2;
+
 // The columns of each table: the only list of their names and units in results.h5, for writing and reading alike.
-// `visit(name, unit, column)` is called for each in turn; Table is the struct of the function's name, const or not.
+// `visit(name, unit, column)` is called for each in turn, `visit(name, unit, x, y)` for a vector, whose third component is 0 in
+// the file: ParaView takes no shorter ones. Table is the struct of the function's name, const or not.
 
 template <class Table, class Visit>
 void ForEachGrainColumn(Table& table, Visit visit) {
   visit("id", "", table.id);
-  visit("x", "m", table.x);
-  visit("y", "m", table.y);
+  visit("position", "m", table.x, table.y);
   visit("angle", "rad", table.angle);
-  visit("vx", "m/s", table.vx);
-  visit("vy", "m/s", table.vy);
+  visit("velocity", "m/s", table.vx, table.vy);
   visit("spin", "rad/s", table.spin);
   visit("radius", "m", table.radius);
   visit("multiplicity", "", table.multiplicity);
@@ -32,12 +33,15 @@ void ForEachContactColumn(Table& table, Visit visit) {
   visit("image", "", table.image);
   visit("gap", "m", table.gap);
   visit("final_gap", "m", table.final_gap);
-  visit("normal_x", "", table.normal_x);
-  visit("normal_y", "", table.normal_y);
-  visit("point_x", "m", table.point_x);
-  visit("point_y", "m", table.point_y);
+  visit("normal", "", table.normal_x, table.normal_y);
+  visit("point", "m", table.point_x, table.point_y);
+  visit("lever_a", "m", table.lever_a);
+  visit("lever_b", "m", table.lever_b);
   visit("impulse_n", "N s", table.impulse_n);
   visit("impulse_t", "N s", table.impulse_t);
+  visit("force_n", "N", table.force_n);
+  visit("force_t", "N", table.force_t);
+  visit("force", "N", table.force_x, table.force_y);
   visit("velocity_n", "m/s", table.velocity_n);
   visit("velocity_t", "m/s", table.velocity_t);
   visit("status", "", table.status);

@@ -39,8 +39,14 @@ struct ContactRows {
   std::vector<double> normal_y;
   std::vector<double> point_x;  ///< [m] where the impulse acts
   std::vector<double> point_y;
+  std::vector<double> lever_a;    ///< [m] A's disk has its centre at point - lever_a n, B's at point + lever_b n
+  std::vector<double> lever_b;    ///< 0 for other shapes
   std::vector<double> impulse_n;  ///< [N s]
   std::vector<double> impulse_t;
+  std::vector<double> force_n;  ///< [N] impulse / dt
+  std::vector<double> force_t;
+  std::vector<double> force_x;  ///< [N] the same in global axes, on B
+  std::vector<double> force_y;
   std::vector<double> velocity_n;  ///< [m/s] relative, at the end of the step
   std::vector<double> velocity_t;
   std::vector<std::uint8_t> status;  ///< 0 open, 1 sticking, 2 sliding
@@ -69,6 +75,16 @@ struct ShapeTable {
   std::size_t size() const { return body.size(); }
 };
 
+/// Straight lines, for pictures.
+struct LineTable {
+  std::vector<double> x;  ///< [m] of points
+  std::vector<double> y;
+  std::vector<std::int32_t> ends;  ///< line i leads from point ends[2 i] to point ends[2 i + 1]
+  std::vector<std::int64_t> body;  ///< whose shape line i is part of
+
+  std::size_t size() const { return body.size(); }
+};
+
 /// What is constant in a run.
 struct RunDescription {
   std::string scene;
@@ -78,12 +94,13 @@ struct RunDescription {
   std::int64_t subdomains_y = 1;
   double period = 0.0;         ///< [m] length of the periodic direction x; 0: not periodic
   double period_origin = 0.0;  ///< [m] centres are kept in [period_origin, period_origin + period)
+  double dt = 0.0;             ///< [s] time step
 };
 
 /// What is constant in a saved step.
 struct StepDescription {
   std::int64_t step = 0;
-  double time = 0.0;         ///< [s]
+  double time = 0.0;         ///< [s] step * dt, not the sum of dt's
   double mean_radius = 0.0;  ///< [m] of free bodies
 };
 

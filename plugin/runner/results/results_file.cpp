@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "results/hdf5_file.h"
+#include "results/placed_shapes.h"
 #include "results/result_columns.h"
 #include "results/run_files.h"
 #include "results/staged_file.h"
@@ -16,27 +18,60 @@ namespace nscdd {
 namespace {
 
 /// Writes the columns that it is shown into `group`.
-auto Writer(Hdf5File* file, const Hdf5Handle& group, const RowRange& rows) {
-  return [file, &group, &rows](const char* name, const char* unit, const auto& column) {
+struct ColumnWriter {
+  Hdf5File* file;
+  const Hdf5Handle& group;
+  const RowRange& rows;
+
+  template <class T>
+  void operator()(const char* name, const char* unit, const std::vector<T>& column) const {
     file->WriteColumn(group, name, unit, column, rows);
-  };
-}
+  }
+  void operator()(const char* name, const char* unit, const std::vector<double>& x, const std::vector<double>& y) const {
+    file->WriteVectors(group, name, unit, x, y, rows);
+  }
+};
+
+/// Adds up the bytes of the columns that it is shown.
+struct ColumnSize {
+  std::int64_t* bytes;
+
+  template <class T>
+  void operator()(const char*, const char*, const std::vector<T>& column) const {
+    *bytes += std::ssize(column) * static_cast<std::int64_t>(sizeof(T));
+  }
+  void operator()(const char*, const char*, const std::vector<double>& x, const std::vector<double>&) const {
+    *bytes += 3 * std::ssize(x) * static_cast<std::int64_t>(sizeof(double));
+  }
+};
 
 constexpr std::int64_t kOverhead = 128 << 10;  // [bytes] for HDF5 itself, at most, in a file with a step
 
-std::int64_t SizeOf(const GrainTable& table) {
-  std::int64_t size = 0;
-  ForEachGrainColumn(table,
-                     [&](const char*, const char*, const auto& column) { size += std::ssize(column) * sizeof(column[0]); });
-  return size;
-}
+/// What a saved state consists of, on this rank.
+struct Tables {
+  const GrainTable& grains;
+  const ContactRows& contacts;
+  LineTable chains;
+  PlacedShapes shapes;
 
-std::int64_t SizeOf(const ContactRows& table) {
-  std::int64_t size = 0;
-  ForEachContactColumn(table,
-                       [&](const char*, const char*, const auto& column) { size += std::ssize(column) * sizeof(column[0]); });
-  return size;
-}
+  std::int64_t Bytes() const {
+    std::int64_t bytes = LineBytes(chains) + LineBytes(shapes.walls) +
+                         (std::ssize(grains.id) + std::ssize(shapes.disks.id) + std::ssize(contacts.body_a)) *
+                             static_cast<std::int64_t>(sizeof(std::int32_t));  // connectivity
+    ForEachGrainColumn(grains, ColumnSize{&bytes});
+    ForEachGrainColumn(shapes.disks, ColumnSize{&bytes});
+    ForEachContactColumn(contacts, ColumnSize{&bytes});
+    return bytes;
+  }
+
+  static std::int64_t LineBytes(const LineTable& lines) {
+    std::int64_t bytes = 0;
+    ColumnSize{&bytes}("", "", lines.x, lines.y);
+    ColumnSize{&bytes}("", "", lines.ends);
+    ColumnSize{&bytes}("", "", lines.body);
+    return bytes;
+  }
+};
 
 /// What ParaView is told of the steps in a file.
 std::vector<XdmfStep> StepsIn(const std::filesystem::path& path) {
@@ -44,8 +79,13 @@ std::vector<XdmfStep> StepsIn(const std::filesystem::path& path) {
   std::vector<XdmfStep> steps;
   for (const std::string& name : file.Names(file.OpenGroup("/steps"))) {
     const Hdf5Handle group = file.OpenGroup("/steps/" + name);
-    steps.push_back({"/steps/" + name, file.ReadReal(group, "time"), file.RowsOf(group, "grains/id"),
-                     file.RowsOf(group, "contacts/body_a")});
+    XdmfStep step{"/steps/" + name, file.ReadReal(group, "time")};
+    step.has_disks = file.Has(group, "disks");
+    step.grains = file.RowsOf(group, step.has_disks ? "disks/id" : "grains/id");
+    step.contacts = file.RowsOf(group, "contacts/body_a");
+    step.walls = file.RowsOf(group, "walls/body");
+    step.wall_points = file.RowsOf(group, "walls/position") / 3;
+    steps.push_back(step);
   }
   std::sort(steps.begin(), steps.end(), [](const XdmfStep& a, const XdmfStep& b) { return a.time < b.time; });
   return steps;
@@ -55,14 +95,18 @@ std::vector<XdmfStep> StepsIn(const std::filesystem::path& path) {
 
 class ResultsFile::Impl {
  public:
-  Impl(ResultsFolder* folder, const RunDescription& run, Mode mode) : folder_(folder), run_(run), mode_(mode) {}
+  Impl(ResultsFolder* folder, const RunDescription& run, const ShapeTable& shapes, Mode mode)
+      : folder_(folder), run_(run), shapes_(shapes), mode_(mode) {
+    const auto disks = std::count(shapes.kind.begin(), shapes.kind.end(), ShapeKind::kDisk);
+    has_disks_ = ranks().Sum(disks) > 0;
+  }
 
-  void Begin(const ShapeTable& shapes) {
+  void Begin() {
     ranks().RunTogether([&] {
       Open(0);
       const Hdf5Handle group = file_->CreateGroup("/shapes");
-      const RowRange rows(ranks(), shapes.size());
-      ForEachShapeColumn(shapes, Writer(file_.get(), group, rows));
+      const RowRange rows(ranks(), shapes_.size());
+      ForEachShapeColumn(shapes_, ColumnWriter{file_.get(), group, rows});
       file_->Flush();
     });
   }
@@ -76,20 +120,12 @@ class ResultsFile::Impl {
     ranks().RunTogether([&] {
       if (!file_) Open(step.step);
     });
-    const std::int64_t size = ranks().Sum(SizeOf(grains) + SizeOf(contacts)) + kOverhead;
+    Tables tables{grains, contacts, ChainsOf(contacts), PlaceShapes(grains, shapes_, step.mean_radius, ranks())};
+    if (!has_disks_) tables.shapes.disks = {};
+    const std::int64_t size = ranks().Sum(tables.Bytes()) + kOverhead;
     ranks().RunOnRoot([&] { CheckSpace(folder_->path() / name_, static_cast<std::uint64_t>(size)); });
     ranks().RunTogether([&] {
-      const std::string name = fmt::format("/steps/{:06}", step.step);
-      const Hdf5Handle group = file_->CreateGroup(name);
-      file_->WriteAttribute(group, "step", step.step);
-      file_->WriteAttribute(group, "time", step.time);
-      file_->WriteAttribute(group, "mean_radius", step.mean_radius);
-      const RowRange grain_rows(ranks(), grains.size());
-      const Hdf5Handle grain_group = file_->CreateGroup(name + "/grains");
-      ForEachGrainColumn(grains, Writer(file_.get(), grain_group, grain_rows));
-      const RowRange contact_rows(ranks(), contacts.size());
-      const Hdf5Handle contact_group = file_->CreateGroup(name + "/contacts");
-      ForEachContactColumn(contacts, Writer(file_.get(), contact_group, contact_rows));
+      WriteStep(step, tables);
       file_->Flush();
     });
   }
@@ -129,15 +165,56 @@ class ResultsFile::Impl {
     WriteRun(file_.get());
   }
 
+  void WriteStep(const StepDescription& step, const Tables& tables) {
+    const std::string name = fmt::format("/steps/{:06}", step.step);
+    const Hdf5Handle group = file_->CreateGroup(name);
+    file_->WriteAttribute(group, "step", step.step);
+    file_->WriteAttribute(group, "time", step.time);
+    file_->WriteAttribute(group, "mean_radius", step.mean_radius);
+    WritePoints(name + "/grains", tables.grains.size(),
+                [&](const ColumnWriter& write) { ForEachGrainColumn(tables.grains, write); });
+    if (has_disks_) {
+      WritePoints(name + "/disks", tables.shapes.disks.size(),
+                  [&](const ColumnWriter& write) { ForEachGrainColumn(tables.shapes.disks, write); });
+    }
+    WritePoints(name + "/contacts", tables.contacts.size(),
+                [&](const ColumnWriter& write) { ForEachContactColumn(tables.contacts, write); });
+    WriteLines(name + "/chains", tables.chains);
+    const LineTable& walls = tables.shapes.walls;
+    const Hdf5Handle wall_group = WriteLines(name + "/walls", walls);
+    file_->WriteColumn(wall_group, "body", "", walls.body, RowRange(ranks(), walls.size()));
+  }
+
+  template <class WriteColumns>
+  void WritePoints(const std::string& name, std::size_t count, const WriteColumns& write_columns) {
+    const Hdf5Handle group = file_->CreateGroup(name);
+    const RowRange rows(ranks(), count);
+    write_columns(ColumnWriter{file_.get(), group, rows});
+    std::vector<std::int32_t> connectivity(count);
+    std::iota(connectivity.begin(), connectivity.end(), static_cast<std::int32_t>(rows.first));
+    file_->WriteRows(group, "connectivity", connectivity, rows, 1);
+  }
+
+  Hdf5Handle WriteLines(const std::string& name, const LineTable& lines) {
+    Hdf5Handle group = file_->CreateGroup(name);
+    const RowRange points(ranks(), lines.x.size());
+    file_->WriteVectors(group, "position", "m", lines.x, lines.y, points);
+    std::vector<std::int32_t> connectivity = lines.ends;
+    for (std::int32_t& point : connectivity) point += static_cast<std::int32_t>(points.first);
+    file_->WriteRows(group, "connectivity", connectivity, RowRange(ranks(), lines.size()), 2);
+    return group;
+  }
+
   void WriteRun(Hdf5File* file) const {
     const Hdf5Handle root = file->OpenGroup("/");
     file->WriteAttribute(root, "format", "nscdd results");
-    file->WriteAttribute(root, "format_version", std::int64_t{1});
+    file->WriteAttribute(root, "format_version", kResultsFormatVersion);
     file->WriteAttribute(root, "scene", run_.scene);
     file->WriteAttribute(root, "solver", run_.solver);
     file->WriteAttribute(root, "version", run_.version);
     file->WriteAttribute(root, "subdomains_x", run_.subdomains_x);
     file->WriteAttribute(root, "subdomains_y", run_.subdomains_y);
+    file->WriteAttribute(root, "dt", run_.dt);
     file->WriteAttribute(root, "period", run_.period);
     file->WriteAttribute(root, "period_origin", run_.period_origin);
     file->CreateGroup("/steps");
@@ -157,6 +234,8 @@ class ResultsFile::Impl {
 
   ResultsFolder* folder_;
   RunDescription run_;
+  ShapeTable shapes_;       // as the scene gave them to the ranks
+  bool has_disks_ = false;  // some body is more than one centred disk
   Mode mode_;
   std::string name_;                // of the file that is open
   std::unique_ptr<Hdf5File> file_;  // of segments: null between Keep() and Save()
@@ -164,13 +243,14 @@ class ResultsFile::Impl {
 };
 
 ResultsFile::ResultsFile(ResultsFolder* folder, const RunDescription& run, const ShapeTable& shapes, Mode mode)
-    : impl_(std::make_unique<Impl>(folder, run, mode)) {
+    : impl_(std::make_unique<Impl>(folder, run, shapes, mode)) {
   const Hdf5Silence silence;
-  impl_->Begin(shapes);
+  impl_->Begin();
 }
 
-ResultsFile::ResultsFile(ResultsFolder* folder, const RunDescription& run, const std::vector<FileExtent>& kept)
-    : impl_(std::make_unique<Impl>(folder, run, Mode::kSegments)) {
+ResultsFile::ResultsFile(ResultsFolder* folder, const RunDescription& run, const ShapeTable& shapes,
+                         const std::vector<FileExtent>& kept)
+    : impl_(std::make_unique<Impl>(folder, run, shapes, Mode::kSegments)) {
   impl_->GoOn(kept);
 }
 

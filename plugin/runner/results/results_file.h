@@ -10,8 +10,8 @@
 
 namespace nscdd {
 
-/// results.h5 and results.xdmf (for ParaView): what the bodies and contacts were at the steps saved. Schema: README.md.
-/// Several ranks write one file in parallel (MPI-IO), each its own rows.
+/// results.h5 and results.xdmf (for ParaView): what the bodies and contacts were at the steps saved, 0 being the initial state.
+/// Schema: README.md. Several ranks write one file in parallel (MPI-IO), each its own rows.
 ///
 /// A kill while HDF5 writes may spoil the file. A run with checkpoints therefore writes segments: Keep() closes the present
 /// one, which is never touched again, and Close() copies them into one file.
@@ -22,7 +22,7 @@ class ResultsFile {
   /// Throws Error on all ranks when the file cannot be written.
   ResultsFile(ResultsFolder* folder, const RunDescription& run, const ShapeTable& shapes, Mode mode = Mode::kWhole);
   /// Goes on behind the segments that an earlier ResultsFile handed out by Keep().
-  ResultsFile(ResultsFolder* folder, const RunDescription& run, const std::vector<FileExtent>& kept);
+  ResultsFile(ResultsFolder* folder, const RunDescription& run, const ShapeTable& shapes, const std::vector<FileExtent>& kept);
   ~ResultsFile();
 
   /// Collective. Adds a step, later than those before; on disk when it returns.

@@ -76,6 +76,7 @@ nlohmann::ordered_json MarkerOf(const RunIdentity& identity) {
           {"scene_file", identity.scene_file},
           {"scene_hash", identity.scene_hash},
           {"version", identity.version},
+          {"dt", identity.dt},
           {"settings", settings},
           {"notes", identity.notes}};
 }

@@ -19,6 +19,7 @@ struct RunIdentity {
   std::string version;     ///< of the program
   std::vector<std::pair<std::string, std::string>> settings;  ///< what the run was asked for, in this order
   std::vector<std::string> notes = {};                        ///< sentences on its input
+  double dt = 0.0;                                            ///< [s] the end of step k is at k dt
 };
 
 /// FNV-1a of the file's bytes, 16 hexadecimal digits. Throws Error if it cannot be read.

@@ -34,10 +34,11 @@ GrainTable SortedById(const GrainTable& grains) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return grains.id[i] < grains.id[j]; });
   GrainTable sorted = grains;
-  ForEachGrainColumn(sorted, [&](const char*, const char*, auto& column) {
+  const auto sort = [&](auto& column) {
     const auto unsorted = column;
     for (std::size_t i = 0; i < order.size(); ++i) column[i] = unsorted[order[i]];
-  });
+  };
+  ForEachGrainColumn(sorted, [&](const char*, const char*, auto&... columns) { (sort(columns), ...); });
   return sorted;
 }
 
@@ -59,13 +60,18 @@ class ResultsReader::Impl {
 
   /// Reads the columns that it is shown from `group`, and checks that they are equally long.
   auto Reader(const Hdf5Handle& group) const {
-    return [this, &group, rows = std::size_t{0}, first = true](const char* name, const char*, auto& column) mutable {
-      file_.ReadColumn(group, name, &column);
-      if (!first && column.size() != rows) {
-        throw Error(fmt::format("{} is damaged: the column {} has {} rows, the others {}; run the scene again.", path_.string(),
-                                name, column.size(), rows));
+    return [this, &group, rows = std::size_t{0}, first = true](const char* name, const char*, auto&... columns) mutable {
+      if constexpr (sizeof...(columns) == 2) {
+        file_.ReadVectors(group, name, &columns...);
+      } else {
+        file_.ReadColumn(group, name, &columns...);
       }
-      rows = column.size();
+      const std::size_t length = std::max({columns.size()...});
+      if (!first && length != rows) {
+        throw Error(fmt::format("{} is damaged: the column {} has {} rows, the others {}; run the scene again.", path_.string(),
+                                name, length, rows));
+      }
+      rows = length;
       first = false;
     };
   }
@@ -76,9 +82,11 @@ class ResultsReader::Impl {
     const bool is_ours = H5Aexists(root.id(), "format") > 0 && file_.ReadText(root, "format") == "nscdd results";
     if (!is_ours) throw Error(fmt::format("{} was not written by nscdd: give another folder.", path_.string()));
     const std::int64_t version = file_.ReadInteger(root, "format_version");
-    if (version != 1) {
-      throw Error(fmt::format("{} has format version {}, this program reads 1: use the program that wrote it.", path_.string(),
-                              version));
+    if (version != kResultsFormatVersion) {
+      throw Error(
+          fmt::format("{} has format version {}, this program reads {}: run the scene again, or use nscdd {}, which "
+                      "wrote it.",
+                      path_.string(), version, kResultsFormatVersion, file_.ReadText(root, "version")));
     }
   }
 
@@ -96,6 +104,7 @@ ResultsReader::ResultsReader(const std::filesystem::path& folder) {
   run_.version = file.ReadText(root, "version");
   run_.subdomains_x = file.ReadInteger(root, "subdomains_x");
   run_.subdomains_y = file.ReadInteger(root, "subdomains_y");
+  run_.dt = file.ReadReal(root, "dt");
   run_.period = file.ReadReal(root, "period");
   run_.period_origin = file.ReadReal(root, "period_origin");
   for (const std::string& name : file.Names(file.OpenGroup("/steps"))) steps_.push_back(StepNumber(name));
