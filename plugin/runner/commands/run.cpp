@@ -199,12 +199,6 @@ SceneRun::Ending SceneRun::Steps() {
     summary_.Add(row);
     bar.Update(row);
     const bool stop = !IsAsAsked(report.solve.status) && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
-    if (step == done() + 1) {
-      summary_.unknowns_per_contact = report.solve.unknowns_per_contact;
-      summary_.unknowns_per_body = report.solve.unknowns_per_body;
-      summary_.bytes_per_contact = report.solve.bytes_per_contact;
-      summary_.bytes_per_body = report.solve.bytes_per_body;
-    }
     if (step == 1) NoteDeepOverlaps(report.mean_radius);
     if (step == 1 || step == last || stop || (every > 0 && step % every == 0)) Save(row);
     if (stop) return Ending::kNotConverged;
