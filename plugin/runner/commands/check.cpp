@@ -9,6 +9,7 @@
 #include "auto/pilot.h"
 #include "commands/print_notes.h"
 #include "scene/grain_size.h"
+#include "scene/oddities.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
 
@@ -62,12 +63,13 @@ void PrintContacts(const ContactTable& contacts, const Poses& poses, double aler
 }  // namespace
 
 void Check(const std::filesystem::path& path, const std::string& adapter, const SolverRequest& request) {
-  const Scene scene = ReadSceneFile(path);
-  PrintNotes(scene.notes);
+  Scene scene = ReadSceneFile(path);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.plugin));
   const auto pilot = Pilot::Make(scene, request, registry, 1);
   const SolverChoice choice = pilot ? pilot->choice() : ChooseSolver(scene, request, registry);
+  NoteOddities(&scene);
+  PrintNotes(scene.notes);
   const std::string name = adapter.empty() ? scene.adapter : adapter;
   const auto platform = MakePlatform(name, scene);
   ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });

@@ -22,6 +22,7 @@
 #include "results/steps_csv.h"
 #include "run_results.h"
 #include "scene/body_roles.h"
+#include "scene/oddities.h"
 #include "scene/packing.h"
 #include "scene/platform.h"
 
@@ -42,6 +43,7 @@ class SceneRun {
     } else {
       ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
     }
+    ranks_.RunOnRoot([&] { NoteOddities(&plan_.scene); });
     if (ranks_.is_root() && !request_.quiet) PrintNotes(plan_.scene.notes);
     ranks_.RunTogether([&] {
       platform_ = MakePlatform(plan_.record.adapter, plan_.scene);

@@ -190,7 +190,7 @@ double ApproachSpeed(const ContactTable& t, const std::vector<Twist>& velocity) 
 
 /// Unit normals of the contacts' rows, where numbers of few digits were meant for such; others stay as they are, to be refused.
 std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<double>>& contacts,
-                            std::vector<std::string>* notes) {
+                            Notes* notes) {
   std::vector<Vec2> normals;
   std::size_t mended = 0;
   double farthest = 0.0;
@@ -205,7 +205,7 @@ std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<do
     normals.push_back(n);
   }
   if (mended > 0) {
-    notes->push_back(
+    notes->sentences.push_back(
         fmt::format("{}: {} of {} normals in 'contacts' were off unit length by up to {:.1e}, and were normalised; "
                     "write numbers with 17 digits.",
                     file.name(), mended, contacts.size(), farthest));
@@ -214,7 +214,7 @@ std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<do
 }
 
 void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem,
-                 std::vector<std::string>* notes) {
+                 Notes* notes) {
   ContactTable& t = problem->contacts;
   const auto contacts = file.Table("contacts", 8, false);
   t.friction = file.NumberOrRow("mu", contacts.size());

@@ -3,11 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "nscdd/contact_problem.h"
 #include "problem/step_recorder.h"
+#include "scene/notes.h"
 
 namespace nscdd {
 
@@ -27,7 +26,7 @@ struct ProblemFile {
   ContactProblem problem;
   std::size_t body_count = 0;  ///< of the file, without the planes
   double theta = 0.5;
-  std::vector<std::string> notes;  ///< whole sentences on what was mended when reading
+  Notes notes;  ///< on what was mended when reading
 };
 
 /// Throws Error, naming file and key, when the file cannot be read or its numbers make no problem.

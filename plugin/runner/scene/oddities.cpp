@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "scene/body_stream.h"
 
@@ -47,8 +50,8 @@ struct Survey {
   double radii = 0.0, disk_area = 0.0;
   double smallest = kInfinity, largest = 0.0;  // radius of a free disk
   Box centres, walls;                          // in x and y
-  // Along gravity: the least that a free body reaches (its near end), and all that walls reach.
-  Span free_near, free_across_near, free_across_far, wall_down, wall_across;
+  // Near end of each free body along gravity, both of its ends across it; all that walls reach.
+  Span along_near, across_upper, across_lower, wall_down, wall_across;
   bool any_wall = false;
   bool is_floored = false;  // a half-plane catches whatever falls
 
@@ -66,9 +69,9 @@ struct Survey {
     centres.x.Add(c.x, c.x, body.id);
     centres.y.Add(c.y, c.y, body.id);
     const double along = Dot(down, c), side = Dot(across, c);
-    free_near.Add(along - reach, along - reach, body.id);
-    free_across_near.Add(side + reach, side + reach, body.id);
-    free_across_far.Add(side - reach, side - reach, body.id);
+    along_near.Add(along - reach, along - reach, body.id);
+    across_upper.Add(side + reach, side + reach, body.id);
+    across_lower.Add(side - reach, side - reach, body.id);
   }
 
   void AddWallPoint(Vec2 p, double radius, std::int64_t id) {
@@ -163,10 +166,10 @@ class Judge {
           "walls.",
           id, where);
     };
-    if (s.free_near.high > s.wall_down.high) return lost(s.free_near.highest, "beyond");
+    if (s.along_near.high > s.wall_down.high) return lost(s.along_near.highest, "beyond");
     if (scene_.periodic) return;  // the walls' images are everywhere
-    if (s.free_across_near.low < s.wall_across.low) return lost(s.free_across_near.lowest, "beside");
-    if (s.free_across_far.high > s.wall_across.high) lost(s.free_across_far.highest, "beside");
+    if (s.across_upper.low < s.wall_across.low) return lost(s.across_upper.lowest, "beside");
+    if (s.across_lower.high > s.wall_across.high) lost(s.across_lower.highest, "beside");
   }
 
   void JudgeUnits(const Survey& s) {
@@ -197,6 +200,9 @@ class Judge {
 
 }  // namespace
 
-std::vector<std::string> OdditiesOf(const Scene& scene) { return Judge(scene).Sentences(); }
+void NoteOddities(Scene* scene) {
+  const std::vector<std::string> sentences = Judge(*scene).Sentences();
+  scene->notes.sentences.insert(scene->notes.sentences.end(), sentences.begin(), sentences.end());
+}
 
 }  // namespace nscdd
