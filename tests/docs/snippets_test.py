@@ -80,7 +80,7 @@ class Snippets(unittest.TestCase):
             there = {plain(line) for line in (SOURCE / block.note).read_text(encoding="utf-8").splitlines()}
             for line in block.text.splitlines():
                 with self.subTest(block.place, line=line):
-                    self.assertIn(plain(line), there | {""}, f"{block.place}: not in {block.note}")
+                    self.assertTrue(plain(line) in there | {""}, f"{block.place}: '{line}' is not in {block.note}")
 
     def test_python_compiles(self):
         for block in blocks("python"):
