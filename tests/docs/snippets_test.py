@@ -97,7 +97,7 @@ class Snippets(unittest.TestCase):
                     self.assertEqual(helps[command].returncode, 0, f"{document}: nscdd {command}")
                     for option in re.findall(r"(?<!\S)(--?[a-zA-Z][\w-]*)", rest):
                         seen += 1
-                        self.assertRegex(helps[command].stdout, rf"(^|[\s,]){option}\b", f"{document}: nscdd {command} {option}")
+                        self.assertRegex(helps[command].stdout, rf"(^|[\s,]){option}\b", f"{document}: {command} {option}")
         self.assertGreater(seen, 20)
 
     def test_every_language_is_known(self):

@@ -79,7 +79,8 @@ class Files(ProgramTest):
     def test_a_reader_keeps_what_it_opened(self):
         scene = self.write("test.toml", TWO_DISKS)
         out = self.run_scene(scene)
-        for name, arguments in (("p.h5", ["export", scene, "--fclib", "p.h5"]), ("p.json", ["export", scene, "--json", "p.json"]),
+        for name, arguments in (("p.h5", ["export", scene, "--fclib", "p.h5"]),
+                                ("p.json", ["export", scene, "--json", "p.json"]),
                                 ("p.png", ["render", out, "-o", "p.png"]), ("p.svg", ["render", out, "-o", "p.svg"])):
             with self.subTest(name):
                 file = self.folder / name
@@ -92,7 +93,8 @@ class Files(ProgramTest):
         self.assertEqual([p.name for p in self.folder.iterdir() if p.name.endswith(".part")], [])
 
     def test_a_failure_leaves_the_file(self):
-        flying = self.write("flying.toml", TWO_DISKS.replace("point = [0.0, 0.0]", "point = [0.0, -9.0]").replace("3.0]", "9.0]"))
+        lowered = TWO_DISKS.replace("point = [0.0, 0.0]", "point = [0.0, -9.0]")
+        flying = self.write("flying.toml", lowered.replace("3.0]", "9.0]"))
         kept = self.write("p.h5", "what was there")
         self.assertEqual(nscdd("export", flying, "--fclib", kept).returncode, 2)
         self.assertEqual(kept.read_text(), "what was there")
@@ -101,8 +103,9 @@ class Files(ProgramTest):
         scene = self.write("test.toml", TWO_DISKS.replace("steps = 3", "steps = 30"))
         for ranks in (0, 1):  # mpirun gives its ranks a terminal even if its own output is a file
             with open(self.folder / "log", "w") as log:
-                command = [NSCDD, "run", str(scene), "--out", str(self.folder / "out")]
-                subprocess.run(([MPIEXEC, "-n", "1"] if ranks else []) + command, stdout=log, stderr=log, check=True, timeout=60)
+                command = [MPIEXEC, "-n", "1"] if ranks else []
+                command += [NSCDD, "run", str(scene), "--out", str(self.folder / "out")]
+                subprocess.run(command, stdout=log, stderr=log, check=True, timeout=60)
             text = (self.folder / "log").read_text()
             self.assertIn("step 30/30", text)
             self.assertEqual([c for c in text if ord(c) < 32 and c != "\n"], [], text)
@@ -145,14 +148,15 @@ class Check(ProgramTest):
         self.assertIn("2 candidates within 0.4 m", done.stdout)
 
 
+FLOOR = 'type = "half_plane"\npoint = [0.0, 0.0]'
 ODD = {  # what is odd: (text of the scene, its replacement, what the note must say)
     "degrees": ('[scene]', '[gravity]\nangle = 30.0\n[scene]', "'gravity.angle' is 30, more than a whole turn"),
     "rotating by degrees": ('[scene]', '[gravity]\nkind = "rotating"\nfrom_angle = 0.0\nto_angle = 22.5\nin_steps = 3\n[scene]',
                             "'gravity.to_angle' is 22.5"),
     "upwards": ('[scene]', '[gravity]\nvector = [0.0, 9.81]\n[scene]', "upwards"),
-    "below": ('type = "half_plane"\npoint = [0.0, 0.0]', 'type = "segments"\npoints = [[-5.0, 9.0], [5.0, 9.0]]', "beyond all walls"),
-    "beside": ('type = "half_plane"\npoint = [0.0, 0.0]', 'type = "segments"\npoints = [[2.0, 0.0], [5.0, 0.0]]', "beside all walls"),
-    "no wall": ('[[walls]]\ntype = "half_plane"\npoint = [0.0, 0.0]\n', '', "fall for ever"),
+    "below": (FLOOR, 'type = "segments"\npoints = [[-5.0, 9.0], [5.0, 9.0]]', "beyond all walls"),
+    "beside": (FLOOR, 'type = "segments"\npoints = [[2.0, 0.0], [5.0, 0.0]]', "beside all walls"),
+    "no wall": (f"[[walls]]\n{FLOOR}\n", "", "fall for ever"),
     "radii in mm": ('centre = [0.0, 3.0]', 'centre = [0.0, 1.002]', "both in metres"),
     "positions in mm": ('centre = [0.0, 3.0]', 'centre = [3000.0, 3000.0]', "both in metres"),
     "one radius in mm": ('centre = [0.0, 3.0]\nradius = 1.0', 'centre = [0.0, 2002.0]\nradius = 1000.0', "radii go from"),

@@ -189,8 +189,7 @@ double ApproachSpeed(const ContactTable& t, const std::vector<Twist>& velocity) 
 }
 
 /// Unit normals of the contacts' rows, where numbers of few digits were meant for such; others stay as they are, to be refused.
-std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<double>>& contacts,
-                            Notes* notes) {
+std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<double>>& contacts, Notes* notes) {
   std::vector<Vec2> normals;
   std::size_t mended = 0;
   double farthest = 0.0;
@@ -213,8 +212,7 @@ std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<do
   return normals;
 }
 
-void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem,
-                 Notes* notes) {
+void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem, Notes* notes) {
   ContactTable& t = problem->contacts;
   const auto contacts = file.Table("contacts", 8, false);
   t.friction = file.NumberOrRow("mu", contacts.size());
