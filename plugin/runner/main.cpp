@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <limits>
 
+#include "command_line.h"
 #include "commands/check.h"
 #include "commands/export.h"
 #include "commands/extremes.h"
@@ -25,19 +25,6 @@
 namespace {
 
 using namespace nscdd;
-
-/// Refuses with a sentence; CLI11's own validators print the largest double in full.
-CLI::Validator AtLeast(double least, const char* name) {
-  return CLI::Validator(
-      [least, name](const std::string& text) {
-        double value = 0.0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= 1e9;
-        return good ? std::string() : fmt::format("'{}' is no number {} up to 1e9", Printable(text), name);
-      },
-      "");
-}
-const CLI::Validator kPositive = AtLeast(std::numeric_limits<double>::min(), "above 0");
-const CLI::Validator kNotNegative = AtLeast(0.0, "from 0");
 
 /// An option whose text goes to the solver under `name`.
 void AddSolverOption(CLI::App* command, SolverRequest* request, const std::string& flag, const std::string& name,
@@ -90,12 +77,13 @@ class Program {
   }
 
   int Main(int argc, char** argv) {
+    CheckArguments(app_, {argv, static_cast<std::size_t>(argc)});
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-      const bool help = e.get_exit_code() == 0;
-      if (session_.ranks().is_root()) app_.exit(e);
-      return help ? 0 : 2;
+      if (e.get_exit_code() != 0) throw Error(SentenceOf(e));
+      if (session_.ranks().is_root()) app_.exit(e);  // prints the help
+      return 0;
     }
     const int code = action_();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -104,6 +92,12 @@ class Program {
   }
 
  private:
+  std::string SentenceOf(const CLI::ParseError& error) const {
+    std::string command;
+    for (const CLI::App* chosen : app_.get_subcommands()) command = chosen->get_name() + " ";
+    return fmt::format("{}; see `nscdd {}--help`.", error.what(), command);
+  }
+
   /// Commands other than run work on one rank.
   void OnRoot(CLI::App* command, std::function<int()> work) {
     command->callback([this, work] {
@@ -123,11 +117,9 @@ class Program {
     run->add_flag_callback(
         "--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); }, "Begin every step from zero impulses");
     run->add_option("--adapter", run_.adapter, "Platform: box2d or reference");
-    run->add_option("--steps", run_.steps, "Number of steps in all, those before --resume included")->check(kPositive);
-    run->add_option("--save-every", run_.save_every, "Save every K-th step in results.h5 (default: first and last)")
-        ->check(kPositive);
-    run->add_option("--checkpoint-every", run_.checkpoint_every, "Write a checkpoint every N-th step, for --resume")
-        ->check(kPositive);
+    AddWhole(run, "--steps", 1, &run_.steps, "Number of steps in all, those before --resume included");
+    AddWhole(run, "--save-every", 1, &run_.save_every, "Save every K-th step in results.h5 (default: first and last)");
+    AddWhole(run, "--checkpoint-every", 1, &run_.checkpoint_every, "Write a checkpoint every N-th step, for --resume");
     run->add_option("--out", run_.out, "Folder of the results (default: results/SCENE)");
     run->add_flag("--quiet", run_.quiet, "Print nothing but errors");
     run->callback([this] { action_ = [this] { return Run(run_, session_); }; });
@@ -166,7 +158,7 @@ class Program {
   void AddExport() {
     CLI::App* command = app_.add_subcommand("export", "Write one step's contact problem and its answer for other programs");
     command->add_option("input", export_.input, "Scene file (TOML) or problem file (.json)")->required();
-    command->add_option("--step", export_.step, "Step of the scene")->check(kPositive)->capture_default_str();
+    AddWhole(command, "--step", 1, &export_.step, "Step of the scene")->default_str("1");
     command->add_option("--fclib", export_.fclib, "File to write in FCLib's HDF5 format");
     command->add_option("--json", export_.json, "File to write for `nscdd solve`");
     command->add_option("--adapter", export_.adapter, "Platform: box2d or reference");
@@ -191,14 +183,11 @@ class Program {
         ->capture_default_str();
     tradeoff->add_option("--accuracy", tradeoff_.accuracy, "What whole runs are ranked by: nat, nat_max or interpenetration")
         ->capture_default_str();
-    tradeoff->add_option("--budget", tradeoff_.budget, "Seconds a step that you can spend")->check(kPositive);
-    tradeoff->add_option("--steps", tradeoff_.steps, "Steps to measure, spread over the scene (default: all, at most 100)")
-        ->check(kPositive);
-    tradeoff->add_option("--problems", tradeoff_.problems, "Steps whose problems all settings solve (default 20)")
-        ->check(kPositive);
-    tradeoff->add_option("--repetitions", tradeoff_.repetitions, "Passes for the time (default 5)")->check(kNotNegative);
-    tradeoff->add_option("--time-limit", tradeoff_.time_limit, "Seconds that the measurement may take (default 600)")
-        ->check(kPositive);
+    AddPositive(tradeoff, "--budget", &tradeoff_.budget, "Seconds a step that you can spend");
+    AddWhole(tradeoff, "--steps", 1, &tradeoff_.steps, "Steps to measure, spread over the scene (default: all, at most 100)");
+    AddWhole(tradeoff, "--problems", 1, &tradeoff_.problems, "Steps whose problems all settings solve (default 20)");
+    AddWhole(tradeoff, "--repetitions", 0, &tradeoff_.repetitions, "Passes for the time (default 5)");
+    AddPositive(tradeoff, "--time-limit", &tradeoff_.time_limit, "Seconds that the measurement may take (default 600)");
     tradeoff->add_option("--out", tradeoff_.out, "Folder of the results (default: results/SCENE_tradeoff)");
     tradeoff->add_flag("--cold", tradeoff_.cold, "Solve the recorded problems from zero impulses");
     tradeoff->add_flag("--quick", tradeoff_.quick, "A short list: 5 steps, 3 problems, 1 repetition, a minute at most");
@@ -213,7 +202,7 @@ class Program {
   void AddRender() {
     CLI::App* render = app_.add_subcommand("render", "Draw a saved step of a run");
     render->add_option("folder", render_.folder, "Folder of the results")->required();
-    render->add_option("--step", render_.step, "Step (default: the last one saved)");
+    AddWhole(render, "--step", 1, &render_.step, "Step (default: the last one saved)");
     render->add_option("--show", show_, "grains, forces, multiplicity or overlap")->capture_default_str();
     render->add_option("-o,--output", render_.output, "Picture, .png or .svg (default: FOLDER/SHOW_STEP.png)");
     OnRoot(render, [this] {

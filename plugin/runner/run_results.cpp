@@ -68,6 +68,10 @@ StepRow MakeStepRow(const StepReport& s) {
     row.worst_body_a = r.worst.body_a;
     row.worst_body_b = r.worst.body_b;
   }
+  row.unknowns_per_contact = solve.unknowns_per_contact;
+  row.unknowns_per_body = solve.unknowns_per_body;
+  row.bytes_per_contact = solve.bytes_per_contact;
+  row.bytes_per_body = solve.bytes_per_body;
   row.migrated_bodies = s.migrated_bodies;
   row.messages = s.messages;
   row.message_bytes = s.message_bytes;

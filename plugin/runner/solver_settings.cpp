@@ -75,7 +75,7 @@ SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, cons
   }
   const nscdd_solver_info* solver = nullptr;
   try {
-    solver = registry.Find(choice.name).info;
+    solver = &RequireSolver(registry, choice.name);
   } catch (const Error& e) {
     throw Error(from_scene ? fmt::format("{}:{}: key 'solver.name': {}", file, scene.solver.line, e.what())
                            : fmt::format("--solver: {}", e.what()));
@@ -96,6 +96,15 @@ SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, cons
     Set(&choice.options, name, value);
   }
   return choice;
+}
+
+const nscdd_solver_info& RequireSolver(const SolverRegistry& registry, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& entry : registry.entries()) {
+    if (name == entry.info->name) return *entry.info;
+    names.emplace_back(entry.info->name);
+  }
+  throw Error(fmt::format("there is no solver '{}'; {}", name, Suggestion(name, names, "solvers")));
 }
 
 bool AnySolverHas(const SolverRegistry& registry, const std::string& option) {

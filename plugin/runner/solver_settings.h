@@ -31,6 +31,9 @@ struct SolverChoice {
 /// options and on values that the solver refuses.
 SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, const SolverRegistry& registry);
 
+/// The solver of that name; throws Error, with the nearest name, if there is none.
+const nscdd_solver_info& RequireSolver(const SolverRegistry& registry, const std::string& name);
+
 bool HasOption(const SolverRegistry& registry, const std::string& solver, const std::string& option);
 bool AnySolverHas(const SolverRegistry& registry, const std::string& option);
 

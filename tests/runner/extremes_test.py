@@ -48,7 +48,7 @@ class Extremes(ProgramTest):
     def test_refusals(self):
         done = nscdd("extremes", "--quick", "--solvers", "gauss", "--out", self.folder)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("there is no 'gauss'; choose among nscd/none", done.stderr)
+        self.assertIn("there is no 'gauss'; solvers are nscd/none", done.stderr)
         done = nscdd("extremes", "--quick", "--solvers", "rea", "--out", self.write("file", "") / "inside")
         self.assertEqual(done.returncode, 2)
         self.assertIn("cannot make the folder", done.stderr)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the terminal shows during and after a run.
 #include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "results/progress_bar.h"
 #include "results/run_summary.h"
@@ -64,6 +67,27 @@ TEST(ProgressBar, QuietSaysNothing) {
   EXPECT_EQ(ProgressBar::StyleFor(stderr, true), ProgressBar::Style::kNone);
 }
 
+/// The style of a terminal of so many columns.
+ProgressBar::Style StyleOfTerminal(unsigned short columns) {
+  const winsize size{.ws_row = 0, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+  int outside = -1, inside = -1;
+  EXPECT_EQ(::openpty(&outside, &inside, nullptr, nullptr, &size), 0);
+  std::FILE* stream = ::fdopen(inside, "w");
+  const ProgressBar::Style style = ProgressBar::StyleFor(stream, false);
+  std::fclose(stream);
+  ::close(outside);
+  return style;
+}
+
+// mpirun > FILE gives its ranks a terminal without columns.
+TEST(ProgressBar, OnlyATerminalWithColumnsIsRedrawn) {
+  EXPECT_EQ(StyleOfTerminal(80), ProgressBar::Style::kBar);
+  EXPECT_EQ(StyleOfTerminal(0), ProgressBar::Style::kLines);
+  std::FILE* file = std::tmpfile();
+  EXPECT_EQ(ProgressBar::StyleFor(file, false), ProgressBar::Style::kLines);
+  std::fclose(file);
+}
+
 RunSummary SampleSummary() {
   RunSummary summary;
   summary.scene = "rotating_box_730";
@@ -75,10 +99,6 @@ RunSummary SampleSummary() {
   summary.subdomains_x = 4;
   summary.subdomains_y = 2;
   summary.steps_asked = 4;
-  summary.unknowns_per_contact = 2;
-  summary.unknowns_per_body = 3;
-  summary.bytes_per_contact = 96;
-  summary.bytes_per_body = 40;
   summary.seconds_wall = 5.0;
   for (int i = 1; i <= 4; ++i) {
     StepRow row;
@@ -94,6 +114,10 @@ RunSummary SampleSummary() {
     row.seconds_total = 1.0;
     row.seconds_solve = 0.5;
     row.messages = 100;
+    row.unknowns_per_contact = i == 1 ? 1 : 2;  // a pair without friction meets first
+    row.unknowns_per_body = 3;
+    row.bytes_per_contact = i == 1 ? 64 : 112;
+    row.bytes_per_body = 40;
     row.worst_body_a = 4;
     row.worst_body_b = 9;
     row.reason = "1000 iterations without success";
@@ -109,8 +133,9 @@ TEST(RunSummary, GathersMeansAndMaxima) {
        {"rotating_box_730, on box2d", "nscdd, 4x2 subdomains, 2 ranks", "nat <= 0.0001",
         "4 of 4, 0.04 s simulated: 2 converged, 1 iteration_limit, 1 stalled", "mean 25.0, max 40",
         "mean 2.50e-05, max 4.00e-05", "mean 2.500e-06 m, max 4.000e-05 m = 2.50e-04 and 4.00e-03 mean radii", "solve 2.000",
-        "other 2.000, outside steps 1.000", "unknowns: 2 per contact, 3 per body; bytes swept: 96 per contact, 40 per body",
-        "400 messages", "results/rotating_box_730"}) {
+        "other 2.000, outside steps 1.000",
+        "unknowns: 1 to 2 per contact, 3 per body; bytes swept: 64 to 112 per contact, 40 per body", "400 messages",
+        "results/rotating_box_730"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << " is not in\n" << table;
   }
 }

@@ -9,6 +9,7 @@
 #include "auto/pilot.h"
 #include "commands/print_notes.h"
 #include "scene/grain_size.h"
+#include "scene/oddities.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
 
@@ -33,7 +34,14 @@ Poses SortedPoses(const BodyTable& bodies) {
   return sorted;
 }
 
-void PrintContacts(const ContactTable& contacts, const Poses& poses, double mean_radius) {
+/// As the run will use it: the scene's, or a tenth of the mean radius.
+double AlertDistance(const SolverChoice& choice, const SolverRegistry& registry, double mean_radius) {
+  const std::string text = OptionValue(choice, registry, "alert_distance");
+  const double asked = text.empty() ? -1.0 : std::stod(text);
+  return asked < 0.0 ? 0.1 * mean_radius : asked;
+}
+
+void PrintContacts(const ContactTable& contacts, const Poses& poses, double alert, double mean_radius) {
   std::int64_t touching = 0, deep = 0, coincident = 0;
   std::size_t deepest = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -42,7 +50,7 @@ void PrintContacts(const ContactTable& contacts, const Poses& poses, double mean
     coincident += !contacts.flat[c] && contacts.lever_a[c] + contacts.lever_b[c] == 0.0;
     if (contacts.gap[c] < contacts.gap[deepest]) deepest = c;
   }
-  fmt::print("contacts    {} candidates within {:.3g} m, {} of them touch\n", contacts.size(), 0.1 * mean_radius, touching);
+  fmt::print("contacts    {} candidates within {:.3g} m, {} of them touch\n", contacts.size(), alert, touching);
   if (contacts.size() > 0 && contacts.gap[deepest] < 0.0) {
     fmt::print("overlaps    {} deeper than a tenth of the mean radius; the deepest is {:.3g} m, of bodies {} and {}\n", deep,
                -contacts.gap[deepest], poses.id[contacts.a[deepest]], poses.id[contacts.b[deepest]]);
@@ -55,12 +63,13 @@ void PrintContacts(const ContactTable& contacts, const Poses& poses, double mean
 }  // namespace
 
 void Check(const std::filesystem::path& path, const std::string& adapter, const SolverRequest& request) {
-  const Scene scene = ReadSceneFile(path);
-  PrintNotes(scene.notes);
+  Scene scene = ReadSceneFile(path);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.plugin));
   const auto pilot = Pilot::Make(scene, request, registry, 1);
   const SolverChoice choice = pilot ? pilot->choice() : ChooseSolver(scene, request, registry);
+  NoteOddities(&scene);
+  PrintNotes(scene.notes);
   const std::string name = adapter.empty() ? scene.adapter : adapter;
   const auto platform = MakePlatform(name, scene);
   ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
@@ -70,12 +79,13 @@ void Check(const std::filesystem::path& path, const std::string& adapter, const 
   platform->adapter().ReadBodies(&bodies);
   const Poses poses = SortedPoses(bodies);
   const double mean_radius = MeanGrainRadius(scene);
+  const double alert = AlertDistance(choice, registry, mean_radius);
   ContactTable contacts;
-  platform->adapter().DetectContacts({poses.id, poses.pose}, 0.1 * mean_radius, &contacts);
+  platform->adapter().DetectContacts({poses.id, poses.pose}, alert, &contacts);
   const auto free = std::count(bodies.kind.begin(), bodies.kind.end(), BodyKind::kFree);
   fmt::print("scene       {}{}{}\n", scene.name, scene.title.empty() ? "" : ": ", scene.title);
   fmt::print("bodies      {} free, {} prescribed; mean disk radius {:.6g} m\n", free, bodies.size() - free, mean_radius);
-  PrintContacts(contacts, poses, mean_radius);
+  PrintContacts(contacts, poses, alert, mean_radius);
   fmt::print("time        {} steps of {} s\n", scene.time.steps, scene.time.dt);
   fmt::print("solver      {}{}", pilot ? "auto, first rung: " : "", choice.name);
   for (const auto& [key, value] : choice.options) fmt::print(", {} = {}", key, value);

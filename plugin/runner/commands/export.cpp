@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "commands/print_notes.h"
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
 #include "problem/fclib_file.h"
@@ -47,6 +48,7 @@ std::string DescriptionOf(const std::string& what, const SolverChoice& choice, c
 
 Exported FromScene(const ExportRequest& request) {
   const Scene scene = ReadSceneFile(request.input);
+  PrintNotes(scene.notes);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.solver.plugin));
   const SolverChoice choice = ChooseSolver(scene, request.solver, registry);
@@ -72,6 +74,7 @@ Exported FromScene(const ExportRequest& request) {
 Exported FromProblem(const ExportRequest& request) {
   if (!request.json.empty()) throw Error("--json: the input is a problem file already; leave it out");
   ProblemFile file = ReadProblemFile(request.input);
+  PrintNotes(file.notes);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.solver.plugin));
   Scene scene;  // the command line alone chooses

@@ -22,6 +22,7 @@
 #include "results/steps_csv.h"
 #include "run_results.h"
 #include "scene/body_roles.h"
+#include "scene/oddities.h"
 #include "scene/packing.h"
 #include "scene/platform.h"
 
@@ -42,6 +43,7 @@ class SceneRun {
     } else {
       ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
     }
+    ranks_.RunOnRoot([&] { NoteOddities(&plan_.scene); });
     if (ranks_.is_root() && !request_.quiet) PrintNotes(plan_.scene.notes);
     ranks_.RunTogether([&] {
       platform_ = MakePlatform(plan_.record.adapter, plan_.scene);
@@ -202,12 +204,6 @@ SceneRun::Ending SceneRun::Steps() {
     summary_.Add(row);
     bar.Update(row);
     const bool stop = !IsAsAsked(report.solve.status) && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
-    if (step == done() + 1) {
-      summary_.unknowns_per_contact = report.solve.unknowns_per_contact;
-      summary_.unknowns_per_body = report.solve.unknowns_per_body;
-      summary_.bytes_per_contact = report.solve.bytes_per_contact;
-      summary_.bytes_per_body = report.solve.bytes_per_body;
-    }
     if (step == 1) NoteDeepOverlaps(report.mean_radius);
     if (step == 1 || step == last || stop || (every > 0 && step % every == 0)) Save(row);
     if (stop) return Ending::kNotConverged;

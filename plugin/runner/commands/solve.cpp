@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "commands/print_notes.h"
 #include "problem/problem_file.h"
 #include "run_results.h"
 
@@ -12,6 +13,7 @@ namespace nscdd {
 
 void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
   const ProblemFile file = ReadProblemFile(problem);
+  PrintNotes(file.notes);
   SolverRegistry registry;
   registry.Add(FindPlugin(request.plugin));
   Scene scene;  // the command line alone chooses
@@ -34,6 +36,7 @@ void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
   json["nat_max"] = row.nat_max;
   json["qm16"] = row.qm16;
   json["interface_jump"] = row.interface_jump;
+  if (!file.notes.sentences.empty()) json["notes"] = file.notes.sentences;
   for (const char* key : {"V_end", "r", "v"}) json[key] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < file.body_count; ++i) {
     const Twist& v = solution.velocity[i];

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 
 #include "checkpoint/stop_signal.h"
 #include "nscdd/error.h"
 #include "results/progress_bar.h"
+#include "results/replaced_file.h"
 #include "results/staged_file.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
@@ -143,7 +142,7 @@ void TradeoffCommand::MakeSettings() {
   if (request_.quick && request_.settings.empty()) std::erase_if(list, [](const Setting& s) { return !s.quick; });
   settings_.insert(settings_.end(), list.begin(), list.end());
   for (const std::string& solver : request_.solvers) {
-    if (solver != "box2d") registry_.Find(solver);  // throws, naming those that there are
+    if (solver != "box2d") RequireSolver(registry_, solver);
   }
   if (!request_.solvers.empty()) {
     std::erase_if(settings_, [&](const Setting& s) {
@@ -216,12 +215,7 @@ void TradeoffCommand::Measure(const StopSignal& interrupt) {
   rows_ = measurement.rows();
 }
 
-void TradeoffCommand::WriteFile(const std::string& name, const std::string& text) const {
-  std::ofstream stream(folder_ / name);
-  stream << text;
-  stream.close();
-  if (!stream) throw Error(CannotWrite(folder_ / name, errno));
-}
+void TradeoffCommand::WriteFile(const std::string& name, const std::string& text) const { ReplaceText(folder_ / name, text); }
 
 /// Rows that `solver = "auto"` reads: runs of the plugin, one step a step, all of which did as asked, on the front of the
 /// interpenetration.
@@ -233,10 +227,7 @@ void TradeoffCommand::StoreFront() const {
   WriteFile(scene_.name + ".front.csv", text);
   if (!request_.store) return;
   const std::filesystem::path beside = std::filesystem::path(scene_.file).replace_extension(".front.csv");
-  std::error_code error;
-  std::filesystem::copy_file(folder_ / (scene_.name + ".front.csv"), beside, std::filesystem::copy_options::overwrite_existing,
-                             error);
-  if (error) throw Error(CannotWrite(beside, error.value()));
+  ReplaceText(beside, text);
   Say(fmt::format("front for solver \"auto\": {}", beside.string()));
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <fstream>
+#include <string>
 
 #include "extremes/extreme_map.h"
-#include "nscdd/error.h"
+#include "results/replaced_file.h"
 
 namespace nscdd {
 namespace {
@@ -36,24 +36,22 @@ std::string Quoted(const std::string& text) {
 }  // namespace
 
 void WriteCsv(const ExtremeMap& map, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << "family,case,subdomains,criterion,tolerance,solver,verdict,status,error,bound,momentum,energy,iterations,contacts,nat,"
-         "nat_max,"
-         "sentence\n";
+  std::string text =
+      "family,case,subdomains,criterion,tolerance,solver,verdict,status,error,bound,momentum,energy,iterations,contacts,nat,"
+      "nat_max,"
+      "sentence\n";
   for (std::size_t i = 0; i < map.cases.size(); ++i) {
     const ExtremeCase& c = map.cases[i];
     for (std::size_t k = 0; k < map.columns.size(); ++k) {
       const Outcome& o = map.outcomes[i][k];
       if (o.verdict == Verdict::kNone) continue;
-      out << fmt::format("{},{},{},{},{},{},{},{},{:.3e},{:.1e},{:.1e},{:.1e},{},{},{:.3e},{:.3e},{}\n", c.family,
-                         Quoted(c.name), c.subdomains, c.criterion, c.tolerance, map.columns[k].name, Name(o.verdict), o.status,
-                         o.error, o.bound, o.momentum, o.energy, o.iterations, o.contacts, o.nat, o.nat_max,
-                         Quoted(o.sentence));
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{},{:.3e},{:.1e},{:.1e},{:.1e},{},{},{:.3e},{:.3e},{}\n", c.family, Quoted(c.name),
+                      c.subdomains, c.criterion, c.tolerance, map.columns[k].name, Name(o.verdict), o.status, o.error, o.bound,
+                      o.momentum, o.energy, o.iterations, o.contacts, o.nat, o.nat_max, Quoted(o.sentence));
     }
   }
-  out.flush();
-  if (!out)
-    throw Error(fmt::format("cannot write '{}': look at the folder, its rights and the room on the disk", file.string()));
+  ReplaceText(file, text);
 }
 
 }  // namespace nscdd

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "nscdd/error.h"
+#include "scene/names.h"
 
 namespace nscdd {
 namespace {
@@ -46,8 +47,7 @@ std::vector<SolverColumn> MakeColumns(const SolverRegistry& registry, const std:
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& column) { return fits(column, word); })) continue;
     std::vector<std::string> names;
     for (const SolverColumn& column : columns) names.push_back(column.name);
-    throw Error(fmt::format("--solvers: there is no '{}'; choose among {}, or a solver's name for all its accelerations", word,
-                            fmt::join(names, ", ")));
+    throw Error(fmt::format("--solvers: there is no '{}'; {}", word, Suggestion(word, names, "solvers")));
   }
   std::erase_if(columns, [&](const SolverColumn& column) {
     return std::none_of(wanted.begin(), wanted.end(), [&](const std::string& word) { return fits(column, word); });

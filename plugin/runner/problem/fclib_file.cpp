@@ -6,6 +6,7 @@
 #include "nscdd/error.h"
 #include "problem/contact_operators.h"
 #include "results/hdf5_file.h"
+#include "results/replaced_file.h"
 
 namespace nscdd {
 namespace {
@@ -104,11 +105,13 @@ void WriteFclibFile(const std::filesystem::path& path, const std::string& title,
     throw Error(fmt::format("{}: there is no contact to write; choose a later step", path.string()));
   const ContactOperators operators = MakeContactOperators(problem);
   const Hdf5Silence silence;
-  FclibWriter out(path);
+  ReplacedFile file(path);
+  FclibWriter out(file.part());
   PutGlobal(operators, problem.contacts.friction, title, description, &out);
   PutLocal(operators, problem.contacts.friction, title, description, &out);
   PutAnswer(problem, answer, &out);
   out.Close();
+  file.Commit();
 }
 
 }  // namespace nscdd

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nscdd/error.h"
+#include "results/replaced_file.h"
 #include "scene/names.h"
 #include "scene/utf8.h"
 
@@ -20,6 +21,8 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounded = 1e-9;    // off unit length by so much is fine for the solver
+constexpr double kFewDigits = 1e-3;  // off unit length as numbers of few digits are
 
 /// The file as JSON, with sentences for what is missing.
 class Reader {
@@ -92,6 +95,7 @@ class Reader {
   }
 
   const Json& json() const { return json_; }
+  const std::string& name() const { return name_; }
 
  private:
   /// Other keys may be there (a stored solution, say), but not one that looks like a key that would be read.
@@ -184,15 +188,40 @@ double ApproachSpeed(const ContactTable& t, const std::vector<Twist>& velocity) 
   return largest;
 }
 
-void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem) {
+/// Unit normals of the contacts' rows, where numbers of few digits were meant for such; others stay as they are, to be refused.
+std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<double>>& contacts, Notes* notes) {
+  std::vector<Vec2> normals;
+  std::size_t mended = 0;
+  double farthest = 0.0;
+  for (const auto& row : contacts) {
+    Vec2 n{row[2], row[3]};
+    const double length = Norm(n), off = std::abs(length - 1.0);
+    if (off > kRounded && off < kFewDigits) {
+      n = {n.x / length, n.y / length};
+      ++mended;
+      farthest = std::max(farthest, off);
+    }
+    normals.push_back(n);
+  }
+  if (mended > 0) {
+    notes->sentences.push_back(
+        fmt::format("{}: {} of {} normals in 'contacts' were off unit length by up to {:.1e}, and were normalised; "
+                    "write numbers with 17 digits.",
+                    file.name(), mended, contacts.size(), farthest));
+  }
+  return normals;
+}
+
+void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem, Notes* notes) {
   ContactTable& t = problem->contacts;
   const auto contacts = file.Table("contacts", 8, false);
   t.friction = file.NumberOrRow("mu", contacts.size());
+  const std::vector<Vec2> normals = NormalsOf(file, contacts, notes);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& row = contacts[c];
     const std::int32_t b = BodyRow(file, row[0], c, bodies, problem->mass.size());
     const std::int32_t a = BodyRow(file, row[1], c, bodies, problem->mass.size());
-    const Vec2 n{row[2], row[3]};
+    const Vec2 n = normals[c];
     t.a.push_back(a);
     t.b.push_back(b);
     t.normal.push_back(n);
@@ -221,7 +250,7 @@ ProblemFile ReadProblemFile(const std::filesystem::path& path) {
   Start start;
   AddBodies(file, dt, result.theta, &result.problem, &start);
   result.body_count = file.Table("bodies", 10, false).size();
-  AddContacts(file, result.body_count, start, &result.problem);
+  AddContacts(file, result.body_count, start, &result.problem, &result.notes);
   for (const double mu : result.problem.contacts.friction) {
     if (!(mu >= 0.0)) file.Refuse("key 'mu'", "must not be negative");
   }
@@ -248,12 +277,7 @@ void WriteProblemFile(const std::filesystem::path& path, const RecordedStep& ste
     json["sites"].push_back({t.site[c].x, t.site[c].y});
     if (t.has_arms()) json["arms"].push_back({t.arm_a[c].x, t.arm_a[c].y, t.arm_b[c].x, t.arm_b[c].y});
   }
-  std::ofstream out(path);
-  out << json.dump() << '\n';
-  out.close();
-  if (!out)
-    throw Error(
-        fmt::format("{}: the file cannot be written; check the path, its permissions and the free space", path.string()));
+  ReplaceText(path, json.dump() + '\n');
 }
 
 }  // namespace nscdd

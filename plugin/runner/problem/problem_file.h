@@ -6,6 +6,7 @@
 
 #include "nscdd/contact_problem.h"
 #include "problem/step_recorder.h"
+#include "scene/notes.h"
 
 namespace nscdd {
 
@@ -19,11 +20,13 @@ namespace nscdd {
 ///   and if wanted: `forces`, rows fx fy torque of each body beside gravity; `arms`, rows jx jy ix iy of each contact, of the
 ///   bodies that are no centred disks; `sites`, rows x y of each contact, which place it in a subdomain. Other keys are not
 ///   read; one that looks like a misspelt one of these is refused.
+/// Normals with a few digits, off unit length by up to 1e-3, are normalised, and a note says so.
 /// In the problem body A of a contact is j and body B is i; planes are prescribed bodies behind the others.
 struct ProblemFile {
   ContactProblem problem;
   std::size_t body_count = 0;  ///< of the file, without the planes
   double theta = 0.5;
+  Notes notes;  ///< on what was mended when reading
 };
 
 /// Throws Error, naming file and key, when the file cannot be read or its numbers make no problem.

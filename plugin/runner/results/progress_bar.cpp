@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,17 +22,18 @@ std::string FormatDuration(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
+/// Columns of the terminal; 0 if it is none. mpirun puts a terminal without columns before its ranks where its own output is
+/// a file or a pipe.
 std::size_t TerminalWidth(std::FILE* stream) {
   winsize size{};
-  const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
+  return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 }  // namespace
 
 ProgressBar::Style ProgressBar::StyleFor(std::FILE* stream, bool quiet) {
   if (quiet) return Style::kNone;
-  return ::isatty(::fileno(stream)) != 0 ? Style::kBar : Style::kLines;
+  return TerminalWidth(stream) > 0 ? Style::kBar : Style::kLines;
 }
 
 ProgressBar::ProgressBar(std::FILE* stream, Style style, std::int64_t steps, Clock clock, std::int64_t done)
@@ -79,7 +79,8 @@ void ProgressBar::Update(const std::string& note, bool failed) {
   if (style_ == Style::kLines) {
     fmt::print(stream_, "{}\n", line);
   } else {
-    const std::size_t width = TerminalWidth(stream_) - 1;
+    const std::size_t columns = TerminalWidth(stream_);
+    const std::size_t width = (columns > 0 ? columns : 80) - 1;
     const std::size_t room = std::min<std::size_t>(40, width > line.size() + 3 ? width - line.size() - 3 : 0);
     const std::size_t filled = room * static_cast<std::size_t>(done_) / static_cast<std::size_t>(steps_);
     if (room > 0) line = fmt::format("[{:#>{}}{:.>{}}] {}", "", filled, "", room - filled, line);

@@ -20,7 +20,7 @@ class ProgressBar {
   };
   using Clock = std::function<double()>;  ///< [s] since any moment
 
-  /// kNone if `quiet`, else kBar if `stream` is a terminal.
+  /// kNone if `quiet`, else kBar if `stream` is a terminal that has columns.
   static Style StyleFor(std::FILE* stream, bool quiet);
 
   /// `clock` is for tests; by default the steady clock. `done` steps out of `steps` were taken before.

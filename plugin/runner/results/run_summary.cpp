@@ -35,6 +35,11 @@ std::string CountsOf(const RunSummary& summary, std::size_t first_status) {
   return text;
 }
 
+/// "2", or "1 to 2" where the steps differ.
+std::string Format(const CountRange& range) {
+  return range.least == range.most ? fmt::format("{}", range.most) : fmt::format("{} to {}", range.least, range.most);
+}
+
 std::string Plural(std::int64_t count, const char* noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
 
 /// Two columns: what, and how much.
@@ -101,7 +106,8 @@ void AddCost(const RunSummary& s, Table* table) {
                                         s.seconds_interface));
   }
   table->Add("model", fmt::format("unknowns: {} per contact, {} per body; bytes swept: {} per contact, {} per body",
-                                  s.unknowns_per_contact, s.unknowns_per_body, s.bytes_per_contact, s.bytes_per_body));
+                                  Format(s.unknowns_per_contact), Format(s.unknowns_per_body), Format(s.bytes_per_contact),
+                                  Format(s.bytes_per_body)));
   if (s.ranks > 1) {
     table->Add("communication",
                fmt::format("{} ({:.3g} MB), {}, {}", Plural(s.messages, "message"), static_cast<double>(s.message_bytes) / 1e6,
@@ -148,6 +154,14 @@ std::string Warnings(const RunSummary& s) {
 }  // namespace
 
 void RunSummary::Add(const StepRow& row) {
+  const auto widen = [&](CountRange RunSummary::*range, std::int64_t count) {
+    CountRange& r = this->*range;
+    r = steps == 0 ? CountRange{count, count} : CountRange{std::min(r.least, count), std::max(r.most, count)};
+  };
+  widen(&RunSummary::unknowns_per_contact, row.unknowns_per_contact);
+  widen(&RunSummary::unknowns_per_body, row.unknowns_per_body);
+  widen(&RunSummary::bytes_per_contact, row.bytes_per_contact);
+  widen(&RunSummary::bytes_per_body, row.bytes_per_body);
   ++steps;
   time = row.time;
   last = row;

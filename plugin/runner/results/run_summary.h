@@ -9,6 +9,12 @@
 
 namespace nscdd {
 
+/// Least and largest of a count over the steps.
+struct CountRange {
+  std::int64_t least = 0;
+  std::int64_t most = 0;
+};
+
 /// Gathers what the table at the end of a run shows.
 struct RunSummary {
   // Filled by the runner.
@@ -21,10 +27,6 @@ struct RunSummary {
   std::int64_t subdomains_x = 1;
   std::int64_t subdomains_y = 1;
   std::int64_t steps_asked = 0;
-  int unknowns_per_contact = 0;
-  int unknowns_per_body = 0;
-  int bytes_per_contact = 0;
-  int bytes_per_body = 0;
   double seconds_wall = 0.0;  ///< of the whole run
 
   /// After each step.
@@ -52,6 +54,7 @@ struct RunSummary {
   std::int64_t steps_beyond_alert = 0;  ///< max_drift > min(alert_distance, mean_radius)
   std::int64_t uneven_steps = 0;        ///< converged, nat_max > 1/2
   std::int64_t painleve_contacts = 0;
+  CountRange unknowns_per_contact, unknowns_per_body, bytes_per_contact, bytes_per_body;
   std::int64_t migrated_bodies = 0;
   std::int64_t messages = 0;
   std::int64_t message_bytes = 0;

@@ -47,6 +47,10 @@ struct StepRow {
   double mean_radius = 0.0;
   std::int64_t worst_body_a = -1;  ///< of the contact with the largest nat_max; -1: no contact
   std::int64_t worst_body_b = -1;
+  std::int64_t unknowns_per_contact = 0;
+  std::int64_t unknowns_per_body = 0;
+  std::int64_t bytes_per_contact = 0;
+  std::int64_t bytes_per_body = 0;
   double seconds_total = 0.0;
   double seconds_interface = 0.0;
   std::string reason;  ///< why the solve stopped, one clause

@@ -12,6 +12,7 @@ namespace nscdd {
 
 struct ConstantGravity {
   Vec2 vector{0.0, -9.81};  ///< [m/s^2]
+  double angle = 0.0;       ///< [rad] from which it was made; 0 if it was given itself
 };
 
 /// g (sin a, -cos a); the angle goes linearly from `from_angle` at the first step to `to_angle`, then stays.

@@ -69,10 +69,10 @@ void ReadTime(TableReader* root, Scene* scene) {
 }
 
 ConstantGravity ReadConstantGravity(TableReader* table) {
-  if (table->Has("vector")) return {table->Vector("vector", "[m/s^2]")};
+  if (table->Has("vector")) return {.vector = table->Vector("vector", "[m/s^2]")};
   const double g = table->Number("g", Bound::kNotNegative, "[m/s^2]", 9.81);
   const double angle = table->Number("angle", Bound::kFinite, "[rad]", 0.0);
-  return {{g * std::sin(angle), -g * std::cos(angle)}};
+  return {{g * std::sin(angle), -g * std::cos(angle)}, angle};
 }
 
 RotatingGravity ReadRotatingGravity(TableReader* table) {

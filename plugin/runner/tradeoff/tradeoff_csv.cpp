@@ -8,17 +8,11 @@
 #include <fstream>
 
 #include "nscdd/error.h"
+#include "results/replaced_file.h"
 #include "results/staged_file.h"
 
 namespace nscdd {
 namespace {
-
-void Write(const std::filesystem::path& file, std::ios::openmode mode, const std::string& text) {
-  std::ofstream stream(file, mode | std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw Error(CannotWrite(file, errno));
-}
 
 /// Without what would need quotes.
 std::string Clause(std::string text) {
@@ -109,17 +103,19 @@ std::string TradeoffLine(const TradeoffRow& row) {
   return line + '\n';
 }
 
-TradeoffCsv::TradeoffCsv(const std::filesystem::path& file) : file_(file) { Write(file_, std::ios::trunc, TradeoffHeader()); }
+TradeoffCsv::TradeoffCsv(const std::filesystem::path& file) : file_(file) { ReplaceText(file_, TradeoffHeader()); }
 
-void TradeoffCsv::Append(const TradeoffRow& row) { Write(file_, std::ios::app, TradeoffLine(row)); }
+void TradeoffCsv::Append(const TradeoffRow& row) {
+  std::ofstream stream(file_, std::ios::app | std::ios::binary);
+  stream << TradeoffLine(row);
+  stream.close();
+  if (!stream) throw Error(CannotWrite(file_, errno));
+}
 
 void TradeoffCsv::Rewrite(const std::vector<TradeoffRow>& rows) {
   std::string text = TradeoffHeader();
   for (const TradeoffRow& row : rows) text += TradeoffLine(row);
-  std::filesystem::path part = file_;
-  part += ".part";
-  Write(part, std::ios::trunc, text);
-  std::filesystem::rename(part, file_);
+  ReplaceText(file_, text);
 }
 
 }  // namespace nscdd

@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <string>
+#include <vector>
 
+#include "results/replaced_file.h"
 #include "tradeoff/front.h"
 #include "tradeoff/tradeoff_text.h"
 
@@ -79,13 +81,15 @@ std::string PanelScript(const Panel& panel, int number, const std::vector<Tradeo
 }
 
 /// Exit code of the program, 127 when there is none; its output is thrown away.
-int RunQuietly(std::string program, std::string argument) {
+int RunQuietly(std::vector<std::string> words) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {1, 2}) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) return 127;
   int status = 0;
@@ -97,7 +101,8 @@ int RunQuietly(std::string program, std::string argument) {
 
 std::string PlotScript(const std::string& title, const std::vector<TradeoffRow>& rows, const std::string& picture) {
   std::string script = fmt::format(
-      "set terminal pngcairo size 1500,1100 noenhanced font 'sans,10'\nset output {}\n"
+      "set terminal pngcairo size 1500,1100 noenhanced font 'sans,10'\nif (!exists('picture')) picture = {}\nset output "
+      "picture\n"
       "set multiplot layout 2,2 title {}\nset logscale xy\nset format xy '%.0e'\nset grid\n"
       "set key outside right\nset xlabel 'ms a step'\n",
       Quoted(picture), Quoted(title));
@@ -108,13 +113,12 @@ std::string PlotScript(const std::string& title, const std::vector<TradeoffRow>&
 
 std::string PlotTradeoff(const std::filesystem::path& folder, const std::string& title, const std::vector<TradeoffRow>& rows) {
   const std::filesystem::path script = folder / "tradeoff.gp", picture = folder / "tradeoff.png";
-  std::ofstream stream(script);
-  stream << PlotScript(title, rows, picture.string());
-  stream.close();
-  if (!stream) return fmt::format("no plot: {} cannot be written", script.string());
-  const int code = RunQuietly("gnuplot", script.string());
+  ReplacedFile drawn(picture);
+  ReplaceText(script, PlotScript(title, rows, picture.string()));
+  const int code = RunQuietly({"gnuplot", "-e", "picture = " + Quoted(drawn.part().string()), script.string()});
   if (code == 127) return fmt::format("no plot: gnuplot is not installed; after installing it: gnuplot {}", script.string());
   if (code != 0) return fmt::format("no plot: gnuplot failed on {}", script.string());
+  drawn.Commit();
   return picture.string();
 }
 
