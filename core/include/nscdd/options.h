@@ -157,7 +157,7 @@ struct IeaOptions {
 /// High accuracy with friction: interior point iterations, and as many plain sweeps beside them, on one subdomain. An iteration
 /// is a factorisation of a matrix of the size of all bodies, and a sweep; the criterion is nat or nat_max.
 struct NewtonOptions {
-  StoppingOptions stopping{Criterion::kNat, 1e-6, 2000, 1, 300};
+  StoppingOptions stopping{Criterion::kNat, 1e-6, 2000, 1, 450};
   LinearLibrary linear_solver = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
 };
 
