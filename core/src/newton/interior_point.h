@@ -70,7 +70,7 @@ class InteriorPoint {
     if (!std::isfinite(step)) return Regularise();
     Advance(step);
     if (step < 0.03) rho_ = std::min(1.0, pace_.raise * rho_);
-    if (step > 0.3) rho_ = std::max(1e-7, pace_.lower * rho_);
+    if (step > 0.3) rho_ = std::max(std::min(1e-7, 0.01 * infeasibility), pace_.lower * rho_);
     return true;
   }
 
