@@ -249,14 +249,6 @@ std::vector<Option> FeaOptionTable() {
 
 std::vector<Option> NewtonOptionTable() {
   return {
-      Real(
-          "interior_residual", "-",
-          [](SolverSettings& s) -> double& { return std::get<NewtonOptions>(s.algorithm).interior_residual; }, kNotNegative,
-          "nat_max at which the interior point stage ends; 1e-5 where nat_max 1e-8 is wanted"),
-      Integer(
-          "interior_iterations",
-          [](SolverSettings& s) -> int& { return std::get<NewtonOptions>(s.algorithm).interior_iterations; },
-          Range{0, 2147483647}, "limit of the interior point stage"),
       Choice<LinearLibrary>(
           "linear_solver",
           [](SolverSettings& s) -> LinearLibrary& { return std::get<NewtonOptions>(s.algorithm).linear_solver; },

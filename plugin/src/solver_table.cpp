@@ -43,8 +43,8 @@ std::vector<SolverEntry> MakeTable() {
        {{}, IeaOptions{}},
        Join(PartitionOptionTable(), InterfaceOptions(), IeaOptionTable())},
       {"newton",
-       "high accuracy with friction: interior point, then proximal Newton iterations, one sparse factorisation each; one "
-       "subdomain",
+       "high accuracy with friction: interior point iterations, one sparse factorisation each, and plain sweeps beside them; "
+       "one subdomain",
        {{}, NewtonOptions{}},
        Join(NewtonOptionTable())},
   };

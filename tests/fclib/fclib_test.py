@@ -93,11 +93,6 @@ class Fclib(unittest.TestCase):
                     self.assertTrue(result["converged"])
                     self.assertEqual(result["title"], path.stem)
 
-    def test_enumeration(self):
-        for name in ("c3_incline_roll", "c4_column4", "c6_oblique_impact_e05", "c7_vgroove"):
-            with self.subTest(problem=name):
-                self.compare(GOLDEN / f"{name}.json", "enum", *TIGHT, accuracy=1e-10)
-
     def test_clusters(self):
         """Bodies with arms: W_nt is not zero."""
         for step in (200, 400):  # Lemke is not asked: on some of these Siconos' pivoting ends, without a word, at no solution

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads an FCLib file with libfclib, solves it with a solver of Siconos and compares with the answer in the file.
-//     siconos_check FILE.h5 nsgs|cpg|lemke|enum TOLERANCE MAX_ITERATIONS
+//     siconos_check FILE.h5 nsgs|lemke TOLERANCE MAX_ITERATIONS
 // and prints one line of JSON. Knows nothing of nscdd: residual and velocities are computed here from W, q, M, H, f, w, mu.
 
 extern "C" {
@@ -150,10 +150,8 @@ NumericsMatrix* Blocks(const fclib_matrix& w) {
 
 int SolverId(const std::string& name) {
   if (name == "nsgs") return SICONOS_FRICTION_2D_NSGS;
-  if (name == "cpg") return SICONOS_FRICTION_2D_CPG;
   if (name == "lemke") return SICONOS_FRICTION_2D_LEMKE;
-  if (name == "enum") return SICONOS_FRICTION_2D_ENUM;
-  std::fprintf(stderr, "siconos_check: no solver '%s'; take nsgs, cpg, lemke or enum\n", name.c_str());
+  std::fprintf(stderr, "siconos_check: no solver '%s'; take nsgs or lemke\n", name.c_str());
   std::exit(2);
 }
 
@@ -161,7 +159,7 @@ int SolverId(const std::string& name) {
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::fprintf(stderr, "usage: siconos_check FILE.h5 nsgs|cpg|lemke|enum TOLERANCE MAX_ITERATIONS\n");
+    std::fprintf(stderr, "usage: siconos_check FILE.h5 nsgs|lemke TOLERANCE MAX_ITERATIONS\n");
     return 2;
   }
   const int solver = SolverId(argv[2]);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "linear/kept_solver.h"
 #include "mpi_test.h"
+#include "nscdd/error.h"
 
 namespace nscdd {
 namespace {
@@ -73,6 +75,45 @@ Matrix GeneralMatrix() {
   return m;
 }
 
+Matrix Diagonal(int n, int place, double value) {
+  Matrix m;
+  m.n = n;
+  for (int i = 0; i < n; ++i) {
+    m.row.push_back(i);
+    m.column.push_back(i);
+    m.values.push_back(i == place ? value : 2.0);
+  }
+  return m;
+}
+
+/// 550 blocks of 2 x 2 and rank 1, but for rounding; both triangles if `symmetry` asks for them.
+Matrix NullDirections(Symmetry symmetry) {
+  Matrix m;
+  m.n = 1100;
+  for (int i = 0; i < m.n; i += 2) {
+    const double u = 1.0 + 0.3 * std::sin(i), v = 0.7 + 0.2 * std::cos(i);
+    const double block[2][2] = {{u * u, u * v}, {v * u, v * v * (1.0 + 1e-15)}};
+    for (int p = 0; p < 2; ++p) {
+      for (int q = 0; q < 2; ++q) {
+        if (q > p && symmetry == Symmetry::kPositiveDefinite) continue;
+        m.row.push_back(i + p);
+        m.column.push_back(i + q);
+        m.values.push_back(block[p][q]);
+      }
+    }
+  }
+  return m;
+}
+
+/// Two entries at one place, finite, whose sum is not.
+Matrix Overflow() {
+  Matrix m = Diagonal(5, 2, 1e308);
+  m.row.push_back(2);
+  m.column.push_back(2);
+  m.values.push_back(1e308);
+  return m;
+}
+
 using LinearSolvers = test::MpiTest;
 
 // What solver newton uses for its cross-check.
@@ -104,6 +145,53 @@ TEST_F(LinearSolvers, OfTheInterfaceAgreeAndKeepTheirFactors) {
     EXPECT_EQ(solver->counters().analyses, 1);
     EXPECT_EQ(solver->counters().factorisations, 4);
   }
+}
+
+struct Faulty {
+  const char* fault;
+  Matrix matrix;
+};
+
+std::vector<Faulty> FaultyMatrices(Symmetry symmetry) {
+  std::vector<Faulty> all{{"a zero pivot", Diagonal(5, 3, 0.0)},
+                          {"not a number in the first place", Diagonal(5, 0, NAN)},
+                          {"not a number in the middle", Diagonal(5, 2, NAN)},
+                          {"infinity", Diagonal(5, 4, INFINITY)},
+                          {"null directions", NullDirections(symmetry)}};
+  if (symmetry == Symmetry::kPositiveDefinite) {
+    all.push_back({"a negative pivot", Diagonal(1000, 700, -1.0)});
+    all.push_back({"an overflow", Overflow()});  // which the scaling of MUMPS for general matrices survives
+  }
+  return all;
+}
+
+std::string RefusalOf(KeptSolver* solver, const Matrix& m) {
+  try {
+    Solve(solver, m);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Wherever the fault stands; and the solver is as good as new after it.
+TEST_F(LinearSolvers, RefuseWhatTheyCannotSolve) {
+  const auto general = Symmetry::kGeneral, definite = Symmetry::kPositiveDefinite;
+  const auto expect = [&](const char* name, Symmetry symmetry, auto make) {
+    for (const Faulty& subject : FaultyMatrices(symmetry)) {
+      SCOPED_TRACE(std::string(name) + ", " + subject.fault);
+      KeptSolver solver(make(), &communicator);
+      const bool gives = !solver.is_distributed() || communicator.rank() == 0;
+      const auto part = [&](const Matrix& m) { return gives ? m : Matrix{m.n, {}, {}, {}}; };
+      EXPECT_NE(RefusalOf(&solver, part(subject.matrix)).find("to working precision"), std::string::npos);
+      EXPECT_NEAR(Solve(&solver, part(Diagonal(5, -1, 0.0)))[4], 0.5 * std::sin(5.0), 1e-15);
+    }
+  };
+  expect("Eigen", definite, [&] { return MakeLocalSolver(LinearLibrary::kEigen, definite); });
+  expect("Eigen, general", general, [&] { return MakeLocalSolver(LinearLibrary::kEigen, general); });
+  expect("MUMPS", definite, [&] { return MakeLocalSolver(LinearLibrary::kMumps, definite); });
+  expect("MUMPS, general", general, [&] { return MakeLocalSolver(LinearLibrary::kMumps, general); });
+  expect("MUMPS, shared", definite, [&] { return MakeSharedSolver(LinearLibrary::kMumps, &communicator); });
 }
 
 }  // namespace

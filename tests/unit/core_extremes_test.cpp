@@ -29,7 +29,6 @@ AlgorithmOptions Tight(int nx = 1, int ny = 1) {
   o.stopping.tolerance = 1e-12;
   o.stopping.max_iterations = 20000;
   if constexpr (requires { o.partition; }) o.partition = {nx, ny, 1};
-  if constexpr (requires { o.interior_residual; }) o.interior_residual = 1e-5;
   return o;
 }
 

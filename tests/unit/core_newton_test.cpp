@@ -101,7 +101,7 @@ TEST(Newton, ReachesTheGoldenVelocities) {
     nscd.stopping = {.tolerance = 1e-14, .max_iterations = 1000000};
     const ContactSolution truth = SolveContactProblem(file.problem, nscd), s = SolveContactProblem(file.problem, To(1e-9));
     EXPECT_EQ(s.report.status, SolveStatus::kConverged) << entry.path() << ": " << s.report.reason;
-    EXPECT_EQ(s.report.sweeps, 0);
+    EXPECT_EQ(s.report.sweeps, s.report.iterations);
     for (std::size_t i = 0; i < s.velocity.size(); ++i) {
       EXPECT_NEAR(s.velocity[i].vx, truth.velocity[i].vx, 1e-8) << entry.path() << " body " << i;
       EXPECT_NEAR(s.velocity[i].vy, truth.velocity[i].vy, 1e-8) << entry.path() << " body " << i;
@@ -121,7 +121,6 @@ TEST(Newton, AgreesWithSweepsOverSteps) {
   for (const Packing& packing : packings) {
     SerialCommunicator serial;
     NewtonOptions newton = To(1e-7);
-    newton.interior_residual = 1e-5;
     NscdOptions sweeps{{.criterion = Criterion::kNatMax, .tolerance = 1e-8, .max_iterations = 3000000}, {}};
     const test::Outcome one = test::Run(packing, {}, newton, 2, &serial), other = test::Run(packing, {}, sweeps, 2, &serial);
     for (const StepReport& report : one.reports) {
@@ -170,6 +169,36 @@ TEST(Newton, ALimitIsAStatusWithTheBestIterate) {
     for (const IterationRecord& record : s.report.history) best = std::min(best, record.nat_max);
     EXPECT_EQ(s.report.residuals.nat_max, best);
   }
+}
+
+// Three disks below, two on them and one on top, symmetric: two equal paths, and pairs of contacts that change status at once.
+TEST(Newton, SolvesTheSymmetricPyramidThatSlides) {
+  const ProblemFile file = ReadProblemFile(std::string(NSCDD_SOURCE_DIR) + "/tests/data/newton_9_contacts.json");
+  const ContactSolution s = SolveContactProblem(file.problem, To(1e-8));
+  EXPECT_EQ(s.report.status, SolveStatus::kConverged) << s.report.reason;
+  EXPECT_LE(s.report.iterations, 40);
+}
+
+TEST(Newton, NeverEndsAboveAsManyPlainSweeps) {
+  for (const double friction : {0.0, 0.1, 0.8}) {
+    const ContactProblem p = SampleProblem({.columns = 4, .rows = 3, .friction = friction});
+    for (int budget = 1; budget <= 12; ++budget) {
+      NewtonOptions newton = To(1e-12);
+      newton.stopping.max_iterations = budget;
+      const NscdOptions sweeps{newton.stopping, {.method = Acceleration::kNone}};
+      EXPECT_LE(SolveContactProblem(p, newton).report.residuals.nat_max,
+                SolveContactProblem(p, sweeps).report.residuals.nat_max)
+          << friction << ", " << budget;
+    }
+  }
+}
+
+TEST(Newton, SaysHowImpulsesGrewWhereItStalls) {
+  NewtonOptions o = To(1e-30);
+  o.stopping.stall_iterations = 60;
+  const SolveReport report = SolveContactProblem(SampleProblem({.friction = 0.4}), o).report;
+  EXPECT_EQ(report.status, SolveStatus::kStalled);
+  EXPECT_NE(report.reason.find("|r|_D"), std::string::npos) << report.reason;
 }
 
 // Asked for more than rounding allows, it stalls near rounding and does not run away; also where the solution is no impulse at

@@ -154,13 +154,10 @@ struct IeaOptions {
   int closing_updates = 0;  ///< closing iterations of NSCDD ("hybrid")
 };
 
-/// High accuracy with friction: interior point iterations, then proximal semismooth Newton steps, on one subdomain. Iterations
-/// are factorisations of a matrix of the size of all bodies; the criterion is nat or nat_max.
+/// High accuracy with friction: interior point iterations, and as many plain sweeps beside them, on one subdomain. An iteration
+/// is a factorisation of a matrix of the size of all bodies, and a sweep; the criterion is nat or nat_max.
 struct NewtonOptions {
-  StoppingOptions stopping{Criterion::kNat, 1e-6, 600, 1, 150};
-  double interior_residual =
-      1e-2;  ///< [-] nat_max at which the interior point stage hands over; 1e-5 when nat_max 1e-8 is wanted
-  int interior_iterations = 200;                       ///< at most
+  StoppingOptions stopping{Criterion::kNat, 1e-6, 2000, 1, 450};
   LinearLibrary linear_solver = LinearLibrary::kAuto;  ///< kAuto: block LU without pivoting; the others as a cross-check
 };
 

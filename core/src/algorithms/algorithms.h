@@ -32,7 +32,8 @@ SolveReport Solve(const PartitionedProblem& problem, const ReaOptions& options, 
 SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, Communicator* communicator,
                   InterfaceWorkspace* workspace, PartitionedState* state);
 
-/// Interior point and proximal Newton stages on one subdomain; starts cold, whatever `state` says. Best tested iterate.
+/// Interior point iterations on one subdomain, which start cold whatever `state` says, and plain sweeps from it beside them.
+/// Best tested iterate.
 SolveReport Solve(const PartitionedProblem& problem, const NewtonOptions& options, Communicator* communicator,
                   InterfaceWorkspace* workspace, PartitionedState* state);
 

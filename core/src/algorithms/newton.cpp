@@ -1,79 +1,129 @@
 // SPDX-License-Identifier: Apache-2.0
-// Not in the paper: high accuracy with friction, one subdomain. An interior point stage, then proximal Newton steps.
+// Not in the paper: high accuracy with friction, one subdomain.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 
 #include "algorithms/algorithms.h"
 #include "algorithms/monitor.h"
 #include "newton/interior_point.h"
-#include "newton/proximal_newton.h"
+#include "nlgs/residual.h"
 #include "nlgs/sweep.h"
 
 namespace nscdd {
 namespace {
 
-/// The two stages; nat_max decides between them, whatever the criterion.
+/// Interior point iterations, begun anew at another pace where they get stuck, and beside them plain sweeps from the state
+/// given, one an iteration. The better of the two is tested, so that the answer is never worse than that of as many sweeps.
 template <class Row>
 class NewtonSolve {
  public:
   NewtonSolve(const PartitionedProblem& problem, const std::vector<Row>& rows, const NewtonOptions& options,
               Communicator* communicator, PartitionedState* state)
       : problem_(problem),
+        sample_(problem.subdomains.front()),
         options_(options),
         monitor_(problem, options.stopping, communicator, /*keep_best=*/true),
         rows_(rows),
-        system_(problem.subdomains.front(), rows, options.linear_solver),
-        state_(state) {}
+        system_(sample_, rows, options.linear_solver),
+        interior_state_(*state),
+        swept_(state) {}
 
   SolveReport Run() {
-    if (!InteriorStage() && !ProximalStage()) monitor_.GiveUp("neither of its stages can make a step");
-    SolveReport report = monitor_.Finish(factorisations_, 0, state_);
+    BeginAnew();
+    int k = 1;
+    for (;; ++k) {
+      const bool stepped = StepInterior();
+      const SweepStatistics statistics = SweepWithStatistics(sample_, &swept_->subdomains.front());
+      const bool interior_leads = stepped && Residual(interior_state_) < Residual(*swept_);
+      if (!monitor_.Stops(k, {statistics}, {}, interior_leads ? interior_state_ : *swept_)) continue;
+      if (interior_leads) *swept_ = interior_state_;
+      break;
+    }
+    SolveReport report = monitor_.Finish(k, k, swept_);
     report.analyses = 1;
     report.factorisations = factorisations_;
+    if (report.status != SolveStatus::kConverged) report.reason += AtBest(report.residuals);
     return report;
   }
 
  private:
-  bool Test() { return monitor_.Stops(factorisations_, std::vector<SweepStatistics>(1), {}, *state_); }
+  static constexpr int kPatience = 40;  // iterations without a residual lower by a tenth
 
-  /// True when the iteration ends.
-  bool InteriorStage() {
-    const double scale = problem_.scales.velocity;
-    if (scale == 0.0) return false;
-    InteriorPoint<Row> interior(problem_.subdomains.front(), rows_, scale, &system_, &state_->subdomains.front());
-    // The stage ends when its residual is good enough for the next one, or has not fallen by a tenth in 30 iterations.
-    double best = INFINITY;
-    int best_at = 0;
-    for (int k = 1; k <= options_.interior_iterations; ++k) {
-      if (!interior.Step()) return false;
-      ++factorisations_;
-      if (Test()) return true;
-      const double residual = monitor_.residuals().nat_max;
-      if (residual < 0.9 * best) {
-        best = residual;
-        best_at = k;
-      }
-      if (residual <= options_.interior_residual || k - best_at >= 30) break;
-    }
-    return false;
+  /// What the criterion measures.
+  double Residual(const PartitionedState& state) const {
+    const NaturalParts n = NaturalResidual(sample_, state.subdomains.front());
+    if (options_.stopping.criterion == Criterion::kNatMax) return NatMax(n.worst, problem_.scales);
+    return Nat(n.sum_e2, n.sum_r2, problem_.scales);
   }
 
-  bool ProximalStage() {
-    ProximalNewton<Row> proximal(problem_.subdomains.front(), rows_, 1e-4, &system_, &state_->subdomains.front());
-    for (;;) {
-      int newtons = 0;
-      if (!proximal.Step(options_.stopping.max_iterations - factorisations_, &newtons)) return false;
-      factorisations_ += newtons;
-      if (Test()) return true;
+  /// Which path is followed past a fold depends on the pace; none is best for all problems.
+  void BeginAnew() {
+    interior_.reset();
+    if (problem_.scales.velocity == 0.0 || attempts_ == 30) return;
+    constexpr std::array<double, 2> kRaise{10.0, 4.0};
+    constexpr std::array<double, 3> kLower{0.5, 0.5, 0.3};
+    const InteriorPace pace{std::pow(0.8, attempts_), kRaise[attempts_ % 2], kLower[attempts_ % 3]};
+    ++attempts_;
+    interior_.emplace(sample_, rows_, problem_.scales.velocity, pace, &system_, &interior_state_.subdomains.front());
+    best_ = INFINITY;
+    waited_ = 0;
+  }
+
+  /// False where there is no step to make.
+  bool StepInterior() {
+    if (waited_ == kPatience) BeginAnew();
+    if (!interior_) return false;
+    ++factorisations_;
+    if (!interior_->Step()) {
+      waited_ = kPatience;
+      return false;
     }
+    const double residual = NatMax(NaturalResidual(sample_, interior_state_.subdomains.front()).worst, problem_.scales);
+    Watch(residual);
+    ++waited_;
+    if (residual < 0.9 * best_) {
+      best_ = residual;
+      waited_ = 0;
+    }
+    return true;
+  }
+
+  void Watch(double residual) {
+    if (residual > 0.1) return;
+    const double norm = interior_->ImpulseNorm();
+    if (first_norm_ == 0.0) first_norm_ = norm;
+    if (residual < lowest_) {
+      lowest_ = residual;
+      lowest_norm_ = norm;
+    }
+  }
+
+  /// Impulses that creep along self-stresses, which change no velocity, grow while the residual hardly falls.
+  std::string AtBest(const Residuals& r) const {
+    std::string text = fmt::format("; at best nat {:.3g}, nat_max {:.3g}", r.nat, r.nat_max);
+    if (first_norm_ == 0.0) return text;
+    return text + fmt::format(", |r|_D (D = diag W) {:.3g} times that at nat_max 0.1", lowest_norm_ / first_norm_);
   }
 
   const PartitionedProblem& problem_;
+  const SubdomainProblem& sample_;
   NewtonOptions options_;
   Monitor monitor_;
   const std::vector<Row>& rows_;
   BodySystem<Row> system_;
-  PartitionedState* state_;
+  PartitionedState interior_state_;
+  PartitionedState* swept_;
+  std::optional<InteriorPoint<Row>> interior_;
+  int attempts_ = 0;
   int factorisations_ = 0;
+  double best_ = INFINITY;  // nat_max of this attempt
+  int waited_ = 0;
+  double lowest_ = INFINITY;  // nat_max of all attempts
+  double first_norm_ = 0.0, lowest_norm_ = 0.0;
 };
 
 }  // namespace

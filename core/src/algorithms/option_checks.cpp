@@ -84,8 +84,6 @@ void Check(const NewtonOptions& o) {
   Require(
       o.stopping.criterion == Criterion::kNat || o.stopping.criterion == Criterion::kNatMax,
       "criterion of solver newton must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it has none");
-  Require(o.interior_residual >= 0.0, fmt::format("interior_residual is {}; it must not be negative", o.interior_residual));
-  RequireAtLeast("interior_iterations", o.interior_iterations, 0);
 }
 
 }  // namespace

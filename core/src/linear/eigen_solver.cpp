@@ -4,9 +4,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <algorithm>
+#include <type_traits>
 #include <vector>
-
-#include "nscdd/error.h"
 
 namespace nscdd {
 namespace {
@@ -15,19 +14,19 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Cholesky = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 using Lu = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
 
-void Check(const Cholesky& factor) {
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0) return;
-  throw Error("the augmented interface matrix is not positive definite to working precision; choose a smaller lambda");
+bool IsSound(const Cholesky& factor) {
+  return factor.info() == Eigen::Success && (factor.vectorD().array() > 0.0).all() && factor.vectorD().allFinite();
 }
 
-void Check(const Lu& factor) {
-  if (factor.info() != Eigen::Success) throw Error("the matrix is singular to working precision");
-}
+bool IsSound(const Lu& factor) { return factor.info() == Eigen::Success; }
 
 template <class Factor>
 class EigenSolver final : public LinearSolver {
  public:
   bool is_distributed() const override { return false; }
+  Symmetry symmetry() const override {
+    return std::is_same_v<Factor, Cholesky> ? Symmetry::kPositiveDefinite : Symmetry::kGeneral;
+  }
 
   void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) override {
     ++counters_.analyses;
@@ -41,7 +40,7 @@ class EigenSolver final : public LinearSolver {
     std::fill_n(out, matrix_.nonZeros(), 0.0);
     for (std::size_t k = 0; k < values.size(); ++k) out[place_[k]] += values[k];
     factor_.factorize(matrix_);
-    Check(factor_);
+    if (!IsSound(factor_)) RefuseMatrix(symmetry());
   }
 
   void Solve(std::span<double> x) override {

@@ -9,7 +9,8 @@
 namespace nscdd {
 
 /// A linear solver that keeps its symbolic factorisation while the pattern stays, and its numeric one while the values stay too
-/// (until it is told to forget them).
+/// (until it is told to forget them). It judges both libraries alike: it refuses numbers that are not finite, and a
+/// factorisation that leaves |A x - b| > 1e-6 |b| (largest components) on a probe b after one step of refinement.
 class KeptSolver {
  public:
   /// `communicator`: of the ranks that share the solver's matrix.
@@ -28,6 +29,9 @@ class KeptSolver {
   const LinearCounters& counters() const { return solver_->counters(); }
 
  private:
+  bool SolvesAProbe();
+  /// b - A x, complete on every rank that shares the matrix.
+  std::vector<double> Defect(const std::vector<double>& x, const std::vector<double>& b) const;
   /// The same answer on all ranks that share the matrix.
   bool OnAll(bool mine) const;
 

@@ -20,6 +20,7 @@ class SharedMumps final : public LinearSolver {
         solver_(MakeMumpsSolver(*FortranHandleOf(*communicator), true, Symmetry::kPositiveDefinite)) {}
 
   bool is_distributed() const override { return true; }
+  Symmetry symmetry() const override { return Symmetry::kPositiveDefinite; }
   void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) override {
     solver_->Analyse(n, row, column);
     counters_ = solver_->counters();
@@ -43,6 +44,11 @@ class SharedMumps final : public LinearSolver {
 };
 
 }  // namespace
+
+void RefuseMatrix(Symmetry symmetry) {
+  if (symmetry == Symmetry::kGeneral) throw Error("the matrix is singular, or not finite, to working precision");
+  throw Error("the matrix is not positive definite and finite to working precision; choose a smaller lambda or reference_mass");
+}
 
 std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry) {
   if (library != LinearLibrary::kMumps) return MakeEigenSolver(symmetry);

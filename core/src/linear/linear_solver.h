@@ -31,11 +31,12 @@ class LinearSolver {
   /// True if the matrix is shared by the ranks of a communicator: each gives its own entries, calls are collective, right-hand
   /// sides and solutions are complete on every rank. False: this process gives all of it.
   virtual bool is_distributed() const = 0;
+  virtual Symmetry symmetry() const = 0;
 
   /// New pattern of an n x n matrix; rows and columns count from 0.
   virtual void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) = 0;
-  /// Numbers for the triplets of Analyse(). Throws Error if the matrix is not positive definite, or is singular, or memory runs
-  /// out.
+  /// Numbers for the triplets of Analyse(), finite. Refuses a matrix whose factors have pivots that are not positive
+  /// (kPositiveDefinite) or vanish; throws Error if memory runs out.
   virtual void Factorise(std::span<const double> values) = 0;
   /// x := A^-1 x.
   virtual void Solve(std::span<double> x) = 0;
@@ -45,6 +46,10 @@ class LinearSolver {
  protected:
   LinearCounters counters_;
 };
+
+/// Throws the Error for a matrix that cannot be factorised: not finite, singular, or not positive definite where it has to be,
+/// to working precision.
+[[noreturn]] void RefuseMatrix(Symmetry symmetry);
 
 /// A solver for this process alone. MUMPS needs MPI to be initialised; throws Error with the mend if it is not.
 /// kAuto is Eigen, whoever started the program: results must not depend on the launcher.

@@ -24,14 +24,9 @@ std::string Explain(int code, int detail) {
     case -7:
     case -13:
       return "not enough memory; use interface = cg or more ranks";
-    case -6:
-    case -10:
-      return "the matrix is singular to working precision; choose a smaller lambda";
     case -8:
     case -9:
       return "its work space was too small even after enlarging; choose linear_solver = eigen";
-    case -40:
-      return "the matrix is not positive definite to working precision; choose a smaller lambda";
     default:
       return fmt::format("see INFOG(1) = {}, INFOG(2) = {} in its users' guide", code, detail);
   }
@@ -39,7 +34,7 @@ std::string Explain(int code, int detail) {
 
 class MumpsSolver final : public LinearSolver {
  public:
-  MumpsSolver(int fortran_communicator, bool distributed, Symmetry symmetry) : distributed_(distributed) {
+  MumpsSolver(int fortran_communicator, bool distributed, Symmetry symmetry) : distributed_(distributed), symmetry_(symmetry) {
     id_.comm_fortran = fortran_communicator;
     id_.par = 1;
     id_.sym = symmetry == Symmetry::kPositiveDefinite ? 1 : 0;
@@ -48,6 +43,8 @@ class MumpsSolver final : public LinearSolver {
     Check("initialisation");
     for (const int stream : {1, 2, 3}) Control(stream) = -1;  // it prints nothing
     Control(4) = 0;
+    Control(7) = 0;                      // order of elimination: approximate minimum degree,
+    Control(28) = 1;                     // found on one rank
     Control(14) = 50;                    // [%] room beyond the estimate
     Control(18) = distributed_ ? 3 : 0;  // entries given by all ranks, or by rank 0
   }
@@ -59,6 +56,7 @@ class MumpsSolver final : public LinearSolver {
   MumpsSolver& operator=(const MumpsSolver&) = delete;
 
   bool is_distributed() const override { return distributed_; }
+  Symmetry symmetry() const override { return symmetry_; }
 
   void Analyse(int n, std::span<const std::int32_t> row, std::span<const std::int32_t> column) override {
     ++counters_.analyses;
@@ -84,6 +82,10 @@ class MumpsSolver final : public LinearSolver {
       if ((code != -8 && code != -9) || Control(14) > 1000) break;
       Control(14) *= 2;
     }
+    const int code = id_.infog[0];
+    // With SYM = 1 an indefinite matrix is factorised without a word: INFOG(12) counts its negative pivots.
+    const bool indefinite = symmetry_ == Symmetry::kPositiveDefinite && id_.infog[11] > 0;
+    if (code == -6 || code == -10 || code == -40 || (code >= 0 && indefinite)) RefuseMatrix(symmetry_);
     Check("factorisation");
   }
 
@@ -125,6 +127,7 @@ class MumpsSolver final : public LinearSolver {
   }
 
   bool distributed_;
+  Symmetry symmetry_;
   DMUMPS_STRUC_C id_{};
   std::vector<MUMPS_INT> row_, column_;
   std::vector<double> values_;

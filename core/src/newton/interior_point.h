@@ -16,15 +16,23 @@ namespace nscdd {
 ///     q
 /// (r_n, y only, where mu = 0) with V = V_f + M^-1 H r. Predictor and corrector of Mehrotra (1992) on the residuals
 ///     R_2 = y - v_n - b_n,   R_3 = p - q - v_t,
-/// with a proximal term rho W in the law, centred at the r of now: it keeps the central path, which folds with friction, from
-/// doing so; and a barrier that never runs ahead of |R|. Products are measured in s_c = velocity scale^2 / W_nn.
+/// with a proximal term rho W in the law, centred at the r of now, against the folds that friction makes in the central path;
+/// and a mean product that does not fall below |R| (measured in s_c = velocity scale^2 / W_nn, |R| in the velocity scale):
+/// where it runs ahead, the contacts' statuses are settled before the impulses have come to where they belong, and steps become
+/// short.
+struct InteriorPace {
+  double floor = 1.0;  ///< the target product is at least floor |R|
+  double raise = 4.0;  ///< factor of rho after a step shorter than 0.03
+  double lower = 0.5;  ///< factor of rho after a step longer than 0.3
+};
+
 template <class Row>
 class InteriorPoint {
  public:
   /// `velocity_scale` [m/s] > 0. Sets state to the interior start.
-  InteriorPoint(const SubdomainProblem& problem, const std::vector<Row>& rows, double velocity_scale, BodySystem<Row>* system,
-                SubdomainState* state)
-      : problem_(problem), laws_(LawsOf(rows)), scale_(velocity_scale), system_(system), state_(state) {
+  InteriorPoint(const SubdomainProblem& problem, const std::vector<Row>& rows, double velocity_scale, const InteriorPace& pace,
+                BodySystem<Row>* system, SubdomainState* state)
+      : problem_(problem), laws_(LawsOf(rows)), scale_(velocity_scale), pace_(pace), system_(system), state_(state) {
     const std::size_t n = rows.size();
     for (auto* list : {&y_, &p_, &q_}) list->assign(n, scale_);
     for (std::size_t c = 0; c < n; ++c) {
@@ -54,18 +62,31 @@ class InteriorPoint {
     const double ratio = MeanProduct(affine) / gamma;
     double sigma = std::clamp(ratio * ratio * ratio, 1e-6, 0.8);
     if (affine < 0.1) sigma = std::max(sigma, 0.3);
-    SetTargets(std::min(2.0 * gamma, std::max(sigma * gamma, 0.01 * infeasibility)), affine >= 0.1);
+    const double floor = pace_.floor * std::max(0.0, infeasibility - kRounding);
+    SetTargets(std::min(2.0 * gamma, std::max(sigma * gamma, floor)), affine >= 0.1);
     Solve();
     const double tau = std::clamp(1.0 - gamma, 0.9, 0.9995);
     const double step = LongestStep(tau);
     if (!std::isfinite(step)) return Regularise();
     Advance(step);
-    if (step < 0.03) rho_ = std::min(1.0, 4.0 * rho_);
-    if (step > 0.3) rho_ = std::max(1e-7, 0.5 * rho_);
+    if (step < 0.03) rho_ = std::min(1.0, pace_.raise * rho_);
+    if (step > 0.3) rho_ = std::max(std::min(1e-7, 0.01 * infeasibility), pace_.lower * rho_);
     return true;
   }
 
+  /// |r|_D = (sum W_nn r_n^2 + W_tt r_t^2)^1/2.
+  double ImpulseNorm() const {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < laws_.size(); ++c) {
+      const Local r = Impulse(c);
+      sum += laws_[c].wn * r.n * r.n + laws_[c].wt * r.t * r.t;
+    }
+    return std::sqrt(sum);
+  }
+
  private:
+  static constexpr double kRounding = 1e-10;  // of |R|: V = V_f + M^-1 H r has no more digits where |r| is large
+
   bool HasTangent(std::size_t c) const { return HasFriction(Row::kModel) && laws_[c].mu > 0.0; }
   Local Impulse(std::size_t c) const { return ImpulseAt<Row>(state_->impulse, c); }
   double ProductScale(std::size_t c) const { return scale_ * scale_ / laws_[c].wn; }
@@ -211,6 +232,7 @@ class InteriorPoint {
   const SubdomainProblem& problem_;
   std::vector<ContactLaw<Row>> laws_;
   double scale_;
+  InteriorPace pace_;
   BodySystem<Row>* system_;
   SubdomainState* state_;
   std::int64_t pairs_ = 0;

@@ -10,25 +10,25 @@ namespace nscdd {
 
 template <int B>
 void LibraryLu<B>::Analyse(const BlockMatrix<B>& matrix) {
-  std::vector<std::int32_t> row, column;
+  row_.clear();
+  column_.clear();
   for (int i = 0; i < matrix.rows(); ++i) {
     for (std::int32_t k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) {
       for (int r = 0; r < B; ++r) {
         for (int c = 0; c < B; ++c) {
-          row.push_back(B * i + r);
-          column.push_back(B * matrix.column[k] + c);
+          row_.push_back(B * i + r);
+          column_.push_back(B * matrix.column[k] + c);
         }
       }
     }
   }
   size_ = B * static_cast<std::size_t>(matrix.rows());
-  solver_->Analyse(static_cast<int>(size_), row, column);
 }
 
 template <int B>
 bool LibraryLu<B>::Factorise(const BlockMatrix<B>& matrix) {
   try {
-    solver_->Factorise(matrix.values);
+    solver_.Set(static_cast<int>(size_), row_, column_, matrix.values);
   } catch (const Error&) {
     return false;  // singular: the caller regularises more
   }
@@ -37,7 +37,7 @@ bool LibraryLu<B>::Factorise(const BlockMatrix<B>& matrix) {
 
 template <int B>
 void LibraryLu<B>::Solve(double* x) {
-  solver_->Solve({x, size_});
+  solver_.Solve({x, size_});
 }
 
 template <int B>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "linear/linear_solver.h"
+#include "linear/kept_solver.h"
 #include "newton/block_factor.h"
 
 namespace nscdd {
@@ -13,15 +13,17 @@ namespace nscdd {
 template <int B>
 class LibraryLu final : public BlockFactor<B> {
  public:
-  explicit LibraryLu(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver)) {}
+  /// `solver`: of this process alone.
+  explicit LibraryLu(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver), nullptr) {}
 
   void Analyse(const BlockMatrix<B>& matrix) override;
   bool Factorise(const BlockMatrix<B>& matrix) override;
   void Solve(double* x) override;
 
  private:
-  std::unique_ptr<LinearSolver> solver_;
+  KeptSolver solver_;
   std::size_t size_ = 0;
+  std::vector<std::int32_t> row_, column_;
 };
 
 }  // namespace nscdd

@@ -31,7 +31,6 @@ OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const ns
   all.emplace_back("criterion", c.criterion);
   all.emplace_back("tolerance", fmt::format("{}", c.tolerance));
   if (column.solver != "newton") all.emplace_back("max_iterations", fmt::format("{}", limits.max_iterations));
-  if (column.solver == "newton" && c.tolerance < 1e-7) all.emplace_back("interior_residual", "1e-5");
   std::erase_if(all, [&](const auto& option) { return FindOption(solver, option.first) == nullptr; });
   return all;
 }

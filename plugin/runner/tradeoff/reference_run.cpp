@@ -89,11 +89,7 @@ Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts) 
   const auto count = static_cast<double>(std::max<std::int64_t>(1, contacts));
   const std::string iterations = Clamped(kContactUpdates / count, 500, 20000);
   const std::vector<Setting> candidates = {
-      {"newton",
-       "newton",
-       {{"tolerance", "1e-10"},
-        {"interior_residual", "1e-5"},
-        {"max_iterations", Clamped(kFactorisedContacts / count, 80, 600)}}},
+      {"newton", "newton", {{"tolerance", "1e-10"}, {"max_iterations", Clamped(kFactorisedContacts / count, 80, 600)}}},
       {"nscd anderson",
        "nscd",
        {{"acceleration", "anderson"}, {"tolerance", "1e-10"}, {"max_iterations", iterations}, {"test_every", "20"}}},
