@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Eigen 3.4.0: SimplicialLDLT and SimplicialLLT report Success for matrices that are not a number or infinite; LLT does so although it
-# exists to find what is not positive definite. The usual check of LDLT, vectorD().minCoeff() > 0, lets NaN pass unless it stands
+# Eigen 3.4.0: SimplicialLDLT and SimplicialLLT report Success for matrices that are not a number or infinite; LLT does so
+# although it
+# exists to find what is not positive definite. The usual check of LDLT, vectorD().minCoeff() > 0, lets NaN pass unless it
+# stands
 # first, and infinity always: minCoeff() compares with <. SparseLU refuses NaN, not infinity.
 # So: (vectorD().array() > 0).all() && vectorD().allFinite().
 #

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # MUMPS 5.5.1 with SYM = 1 ("symmetric positive definite") factorises indefinite matrices, and such that are not a number or
-# infinite, with INFOG(1) = 0. Negative pivots are counted in INFOG(12) and nowhere else; error -40 comes from ScaLAPACK's root only.
-# A NaN or an infinity leaves INFOG(12) = 0 too: only the solution shows it, or not even that (a column of infinity gives x = 0).
+# infinite, with INFOG(1) = 0. Negative pivots are counted in INFOG(12) and nowhere else; error -40 comes from ScaLAPACK's root
+# only.
+# A NaN or an infinity leaves INFOG(12) = 0 too: only the solution shows it, or not even that (a column of infinity gives x =
+# 0).
 # So: look at INFOG(12), at the numbers before the factorisation, and at the residual of a solution.
 #
 # Seen on Debian 12, libmumps-5.5 5.5.1-1:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Siconos 4.4.0, 2D friction, one contact: W = diag(2, 3), q = (-1, 0.3), friction 0.01, 0.02, ... 1. It has one solution each,
 # r = (1/2, -min(1/10, mu / 2)). With default options
-# - ENUM, which goes through all cases of sticking, sliding and opening, ends with info = 1 and without the solution for two of the
+# - ENUM, which goes through all cases of sticking, sliding and opening, ends with info = 1 and without the solution for two of
+# the
 #   hundred;
 # - CPG has the solution for all, yet says that it has not (info != 0) for 29;
 # - LEMKE and NSGS find all.

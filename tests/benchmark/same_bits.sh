@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Whether two builds compute the same bits: runs the sample scenes, shortened, with both programs and compares final.csv and
-# steps.csv without its seconds (results.h5 carries times of its own); solves single problems with both. Two minutes on two cores.
+# steps.csv without its seconds (results.h5 carries times of its own); solves single problems with both. Two minutes on two
+# cores.
 #     tests/benchmark/same_bits.sh OLD_NSCDD NEW_NSCDD        (each takes the plugin of its own build)
 # Ends with 1 if a case differs. Same compiler, flags and machine: otherwise differences say nothing.
 set -uo pipefail
@@ -10,7 +11,8 @@ old=$(realpath "$1") new=$(realpath "$2")
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_mpi_yield_when_idle=1
 cases=0 differing=0
 
 without_seconds() {  # steps.csv
@@ -78,7 +80,8 @@ for scene in clusters sloped_flow_750 rotating_box_730 rotating_box_730_friction
 done
 compare 1 pyramid --steps 3 --solver newton
 compare 1 rotating_box_730 --steps 6 --cold --solver nscd --criterion nat_max --tolerance 1e-2
-compare 2 rotating_box_730 --steps 6 "${fea[@]}" --option compatibility=sticking --option status_compatibility=normal --option repartition_every=3
+compare 2 rotating_box_730 --steps 6 "${fea[@]}" --option compatibility=sticking \
+  --option status_compatibility=normal --option repartition_every=3
 compare 2 rotating_box_730 --steps 4 "${fea[@]}" --option linear_solver=mumps --option local_velocity=current --interface cg
 compare 1 box_10k --steps 5
 compare 2 box_10k --steps 5 --solver nscdd --subdomains 2x2
