@@ -8,6 +8,7 @@
 
 #include "algorithms/algorithms.h"
 #include "algorithms/anderson.h"
+#include "nlgs/residual.h"
 #include "nlgs/sweep.h"
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"

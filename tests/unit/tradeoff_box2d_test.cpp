@@ -10,7 +10,6 @@
 
 #include "nscdd/box2d/box2d_adapter.h"
 #include "nscdd/reference/reference_adapter.h"
-#include "problem/contact_motion.h"
 #include "scene/read_scene.h"
 #include "tradeoff/box2d_surface.h"
 #include "tradeoff/contestant.h"
