@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "parallel/ordered_reduction.h"
@@ -10,6 +11,10 @@
 
 namespace nscdd {
 namespace {
+
+/// A self-stress (H s = 0) changes no velocity: f does not see it, and coefficients that are right for f may move along it
+/// without bound. No start lies further from g than so many |f|. Acceleration needs about 1 / (1 - rate of the sweeps) of them.
+constexpr double kReach = 1e4;
 
 /// sum term(k), k < n, by four partial sums in an order that is the same on every machine.
 template <class Term>
@@ -41,6 +46,10 @@ void Subtract(std::size_t n, const double* __restrict g, const double* __restric
 
 double WeightedNorm2(const double* weight, const double* f, std::size_t n) {
   return Sum(n, [=](std::size_t k) { return weight[k] * f[k] * f[k]; });
+}
+
+double WeightedDistance2(const double* weight, const double* a, const double* b, std::size_t n) {
+  return Sum(n, [=](std::size_t k) { return weight[k] * (a[k] - b[k]) * (a[k] - b[k]); });
 }
 
 template <class Row>
@@ -141,6 +150,8 @@ Anderson::Products Anderson::TakeImage(const PartitionedState& state) {
       const int other = (slot + depth_ - age) % depth_;
       sums[e].sum.df_df[age] = Dot(part.weighted.data(), part.differences.data() + other * n, n);
     }
+    const double* before = part.images.data() + ImageSlot(1) * n;
+    if (has_residual_) sums[e].sum.dg_dg = WeightedDistance2(part.weight.data(), g, before, n);
     sums[e].sum.df_f = Dot(part.weighted.data(), part.residual.data(), n);
     sums[e].sum.f_f = WeightedNorm2(part.weight.data(), part.residual.data(), n);
   }
@@ -157,6 +168,7 @@ void Anderson::Keep(const Products& products) {
     moments_[other] += products.df_df[age];  // <f + df, df_i>
   }
   moments_[newest_] = products.df_f;
+  length_[newest_] = std::sqrt(products.dg_dg);
 }
 
 void Anderson::Restart() {
@@ -164,7 +176,7 @@ void Anderson::Restart() {
   ++restarts_;
 }
 
-/// (D^T D + 1e-10 tr(D^T D) I) c = D^T f,  D = [df_i], newest first.
+/// (D^T D + 1e-10 tr(D^T D) I) c = D^T f,  D = [df_i], newest first; c is shortened so that sum |c_i| |dg_i| <= kReach |f|.
 std::vector<double> Anderson::Coefficients() const {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDepth, kMaxDepth>;
   Matrix normal(count_, count_);
@@ -176,6 +188,10 @@ std::vector<double> Anderson::Coefficients() const {
   // Differences may be nearly parallel, above all with small residuals.
   normal.diagonal().array() += 1e-10 * normal.trace();
   normal.ldlt().solveInPlace(c);
+  double path = 0.0;
+  for (int i = 0; i < count_; ++i) path += std::abs(c(i)) * length_[Slot(i)];
+  const double reach = kReach * std::sqrt(norm2_);
+  if (path > reach) c *= reach / path;
   return {c.data(), c.data() + count_};
 }
 

@@ -18,8 +18,8 @@ namespace nscdd {
 /// F is accelerated with r: r alone, beside the F that belongs to another r, gains nothing. With f = g - s and the differences
 /// df, dg of successive f and g, at most `depth` of them,
 ///     next s = g - sum c_i dg_i,   c = argmin |f - sum c_i df_i|,   r then clipped to |r_t| <= mu r_n, r_n >= 0
-/// Safeguard: where |f| has grown the differences are forgotten and next s = g. The swept state g is what is measured and
-/// returned.
+/// Safeguards: where |f| has grown the differences are forgotten and next s = g; and sum |c_i| |dg_i| <= 1e4 |f|, or impulses
+/// grow along self-stresses, which no velocity sees. The swept state g is what is measured and returned.
 class Anderson {
  public:
   static constexpr int kMaxDepth = 8;
@@ -29,17 +29,17 @@ class Anderson {
            Communicator* communicator, const PartitionedState& start);
 
   /// After iteration `iteration` (from 1), every options.every of them: `state` becomes the start of the next one. Collective,
-  /// one reduction of depth + 2 numbers.
+  /// one reduction of depth + 3 numbers.
   void Extrapolate(int iteration, PartitionedState* state);
 
   /// Adds its work to the report.
   SolveReport Close(SolveReport report) const;
 
  private:
-  /// Of the newest df: <df, df_i> with itself and the older ones, <df, f>; and <f, f>.
+  /// Of the newest df: <df, df_i> with itself and the older ones, <df, f>; <f, f>; and <dg, dg> of the newest dg.
   struct Products {
     std::array<double, kMaxDepth> df_df;
-    double df_f, f_f;
+    double df_f, f_f, dg_dg;
   };
 
   /// One subdomain's vectors, of size n = impulses and interface impulses.
@@ -76,6 +76,7 @@ class Anderson {
   int image_ = 0;                                                // slot of the newest g
   double norm2_ = 0.0;                                           // <f, f>
   std::array<double, kMaxDepth> moments_{};                      // <f, df> by slot
+  std::array<double, kMaxDepth> length_{};                       // |dg| by slot
   std::array<std::array<double, kMaxDepth>, kMaxDepth> gram_{};  // <df, df> by slots
   std::int64_t extrapolations_ = 0, restarts_ = 0;
 };
