@@ -12,9 +12,10 @@
 namespace nscdd {
 namespace {
 
-/// A self-stress (H s = 0) changes no velocity: f does not see it, and coefficients that are right for f may move along it
-/// without bound. No start lies further from g than so many |f|. Acceleration needs about 1 / (1 - rate of the sweeps) of them.
-constexpr double kReach = 1e4;
+/// No start lies further from g than so many |f|, times the ratio of the largest to the smallest mass. A self-stress
+/// (H s = 0) changes no velocity: f does not see it, and coefficients that are right for f may move along it without bound.
+/// Acceleration needs about 1 / (1 - rate of the sweeps); the rate nears 1 with the length of chains and the ratio of masses.
+constexpr double kReach = 2e3;
 
 /// sum term(k), k < n, by four partial sums in an order that is the same on every machine.
 template <class Term>
@@ -104,6 +105,12 @@ void Anderson::MakePart(std::size_t e) {
     const double* inverse = &p.inverse_mass[(dofs - 1) * problem_.interface.copies[k].body];
     for (int d = 0; d < dofs; ++d) part.weight.push_back(inverse[d == 2]);
   }
+  for (std::size_t i = 0; (dofs - 1) * i < p.inverse_mass.size(); ++i) {
+    const double share = p.multiplicity.empty() ? 1.0 : p.multiplicity[i];
+    const double inverse = p.inverse_mass[(dofs - 1) * i] / share;
+    if (inverse == 0.0) continue;
+    part.masses = {std::max(part.masses.largest, 1.0 / inverse), std::max(part.masses.largest_inverse, inverse)};
+  }
   const std::size_t n = part.weight.size();
   part.start.resize(n);
   part.residual.resize(n);
@@ -136,7 +143,7 @@ Anderson::Products Anderson::TakeImage(const PartitionedState& state) {
   // The slot that the newest df will have if it is kept: Keep() moves newest_ there. The first residual has no df.
   const int slot = has_residual_ ? (newest_ + 1) % depth_ : newest_;
   image_ = (image_ + 1) % (depth_ + 1);
-  std::vector<ReductionPart<Products>> sums(parts_.size());
+  std::vector<ReductionPart<Products, Masses>> sums(parts_.size());
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     Part& part = parts_[e];
     const std::size_t n = part.weight.size();
@@ -154,8 +161,11 @@ Anderson::Products Anderson::TakeImage(const PartitionedState& state) {
     if (has_residual_) sums[e].sum.dg_dg = WeightedDistance2(part.weight.data(), g, before, n);
     sums[e].sum.df_f = Dot(part.weighted.data(), part.residual.data(), n);
     sums[e].sum.f_f = WeightedNorm2(part.weight.data(), part.residual.data(), n);
+    sums[e].max = part.masses;
   }
-  return ReduceInOrder(sums, communicator_).sum;
+  const auto all = ReduceInOrder(sums, communicator_);
+  reach_ = kReach * all.max.largest * all.max.largest_inverse;
+  return all.sum;
 }
 
 void Anderson::Keep(const Products& products) {
@@ -176,7 +186,7 @@ void Anderson::Restart() {
   ++restarts_;
 }
 
-/// (D^T D + 1e-10 tr(D^T D) I) c = D^T f,  D = [df_i], newest first; c is shortened so that sum |c_i| |dg_i| <= kReach |f|.
+/// (D^T D + 1e-10 tr(D^T D) I) c = D^T f,  D = [df_i], newest first; c is shortened so that sum |c_i| |dg_i| <= reach |f|.
 std::vector<double> Anderson::Coefficients() const {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDepth, kMaxDepth>;
   Matrix normal(count_, count_);
@@ -190,7 +200,7 @@ std::vector<double> Anderson::Coefficients() const {
   normal.ldlt().solveInPlace(c);
   double path = 0.0;
   for (int i = 0; i < count_; ++i) path += std::abs(c(i)) * length_[Slot(i)];
-  const double reach = kReach * std::sqrt(norm2_);
+  const double reach = reach_ * std::sqrt(norm2_);
   if (path > reach) c *= reach / path;
   return {c.data(), c.data() + count_};
 }

@@ -18,7 +18,7 @@ namespace nscdd {
 /// F is accelerated with r: r alone, beside the F that belongs to another r, gains nothing. With f = g - s and the differences
 /// df, dg of successive f and g, at most `depth` of them,
 ///     next s = g - sum c_i dg_i,   c = argmin |f - sum c_i df_i|,   r then clipped to |r_t| <= mu r_n, r_n >= 0
-/// Safeguards: where |f| has grown the differences are forgotten and next s = g; and sum |c_i| |dg_i| <= 1e4 |f|, or impulses
+/// Safeguards: where |f| has grown the differences are forgotten and next s = g; and sum |c_i| |dg_i| <= reach |f|, or impulses
 /// grow along self-stresses, which no velocity sees. The swept state g is what is measured and returned.
 class Anderson {
  public:
@@ -42,9 +42,15 @@ class Anderson {
     double df_f, f_f, dg_dg;
   };
 
+  /// Of free bodies in contact, not divided [kg, 1/kg].
+  struct Masses {
+    double largest, largest_inverse;
+  };
+
   /// One subdomain's vectors, of size n = impulses and interface impulses.
   struct Part {
     std::vector<std::int32_t> copies;  // of the subdomain, in the interface map
+    Masses masses{};
     std::vector<double> weight;
     std::vector<double> start;        // s
     std::vector<double> residual;     // f
@@ -74,6 +80,7 @@ class Anderson {
   int count_ = 0;                                                // differences kept
   int newest_ = 0;                                               // slot of the newest df
   int image_ = 0;                                                // slot of the newest g
+  double reach_ = 0.0;                                           // of an extrapolation, in |f|
   double norm2_ = 0.0;                                           // <f, f>
   std::array<double, kMaxDepth> moments_{};                      // <f, df> by slot
   std::array<double, kMaxDepth> length_{};                       // |dg| by slot
