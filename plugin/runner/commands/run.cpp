@@ -101,7 +101,7 @@ class SceneRun {
   std::unique_ptr<RunCheckpoints> checkpoints_;  // null if there are none
   RunSummary summary_;
   double seconds_before_ = 0.0;  // [s] that the steps before --resume took
-  StepClock clock_;              // after the last step
+  RunClock clock_;               // after the last step
   std::string overlap_note_;
 };
 

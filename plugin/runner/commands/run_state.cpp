@@ -55,7 +55,7 @@ std::vector<std::byte> SavedBy(const Solver& solver) {
   }
 }
 
-StateHead HeadOf(const RunPlan& plan, const StepClock& clock) {
+StateHead HeadOf(const RunPlan& plan, const RunClock& clock) {
   const double radius = MeanGrainRadius(plan.scene);
   StateHead head;
   head.program = plan.record.program;
@@ -74,7 +74,7 @@ StateHead HeadOf(const RunPlan& plan, const StepClock& clock) {
 
 }  // namespace
 
-void WriteState(const RunPlan& plan, const StepClock& clock, const std::vector<FileExtent>& tables, const Solver& solver,
+void WriteState(const RunPlan& plan, const RunClock& clock, const std::vector<FileExtent>& tables, const Solver& solver,
                 ResultsFolder* folder) {
   const RankGroup& ranks = folder->ranks();
   StateHead head = HeadOf(plan, clock);

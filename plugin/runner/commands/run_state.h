@@ -14,7 +14,7 @@ namespace nscdd {
 
 /// Collective. Writes state.h5: this rank's bodies and the solver's state after the last step, and what --resume goes on with.
 /// `clock`: after the last step; `tables`, `results`: rank 0's files of the folder, complete.
-void WriteState(const RunPlan& plan, const StepClock& clock, const std::vector<FileExtent>& tables, const Solver& solver,
+void WriteState(const RunPlan& plan, const RunClock& clock, const std::vector<FileExtent>& tables, const Solver& solver,
                 ResultsFolder* folder);
 
 /// Collective. Lets the solver go on from what that of the scene's state file saved. Returns "", or why it begins without.

@@ -33,7 +33,7 @@ struct Evaluate {
 
 }  // namespace
 
-Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const StepClock& start) {
+Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const RunClock& start) {
   const std::int64_t step = start.step + k;
   return std::visit(Evaluate{step, start.even_time + static_cast<double>(step - 1 - start.even_since) * dt}, law);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nscdd/vector.h"
-#include "scene/step_clock.h"
+#include "scene/run_clock.h"
 
 namespace nscdd {
 
@@ -37,6 +37,6 @@ struct GravityTable {
 using GravityLaw = std::variant<ConstantGravity, RotatingGravity, GravityTable>;
 
 /// Gravity [m/s^2] during the k-th step, k >= 1, of `dt` [s] behind `start`: its value at the beginning of the step.
-Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const StepClock& start = {});
+Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const RunClock& start = {});
 
 }  // namespace nscdd

@@ -9,8 +9,8 @@ namespace nscdd {
 namespace {
 
 /// The clock at the first step of a run of time step `dt` that goes on from `head`.
-StepClock ClockAfter(const StateHead& head, double dt) {
-  StepClock clock = head.clock;
+RunClock ClockAfter(const StateHead& head, double dt) {
+  RunClock clock = head.clock;
   if (dt == head.dt) return clock;
   clock.even_since = clock.step;
   clock.even_time = clock.time;
@@ -33,7 +33,7 @@ void ReadStart(TableReader* root, Scene* scene) {
   const StateReader state(path);
   if (state.bodies() == 0) table->Refuse("state", fmt::format("names {}, which has no body", path.string()));
   const StateHead& head = state.head();
-  scene->start = StartState{path, goes_on ? ClockAfter(head, scene->time.dt) : StepClock{}};
+  scene->start = StartState{path, goes_on ? ClockAfter(head, scene->time.dt) : RunClock{}};
   scene->materials = head.materials;
   if (head.period > 0.0) scene->periodic = Periodicity{head.period_origin, head.period};
   BodySource source;

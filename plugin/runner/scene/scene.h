@@ -17,7 +17,7 @@
 #include "scene/lattice.h"
 #include "scene/material.h"
 #include "scene/notes.h"
-#include "scene/step_clock.h"
+#include "scene/run_clock.h"
 
 namespace nscdd {
 
@@ -117,7 +117,7 @@ struct OutputSettings {
 /// The state file that a scene begins with.
 struct StartState {
   std::filesystem::path path;
-  StepClock clock;  ///< at the first step: the file's, or that of a new run
+  RunClock clock;  ///< at the first step: the file's, or that of a new run
 };
 
 /// A scene file as read: settings and recipes of bodies, never the bodies themselves.
@@ -138,7 +138,7 @@ struct Scene {
   Notes notes;  ///< on what was read
 
   /// Before the first step.
-  StepClock clock() const { return start ? start->clock : StepClock{}; }
+  RunClock clock() const { return start ? start->clock : RunClock{}; }
 };
 
 }  // namespace nscdd

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/material.h"
-#include "scene/step_clock.h"
+#include "scene/run_clock.h"
 
 namespace nscdd {
 
@@ -14,7 +14,7 @@ struct StateHead {
   std::string program;  ///< version
   std::string plugin;   ///< name and version; its solver wrote the solver's state
   std::string scene;    ///< name
-  StepClock clock;
+  RunClock clock;
   double dt = 0.0;             ///< [s] of the last step
   double period = 0.0;         ///< [m] 0: not periodic
   double period_origin = 0.0;  ///< [m]

@@ -134,7 +134,7 @@ class StateReader::Impl {
   }
 
   void CheckHead() const {
-    const StepClock& clock = head_.clock;
+    const RunClock& clock = head_.clock;
     const bool counts = clock.step >= 0 && clock.even_since >= 0 && clock.even_since <= clock.step && clock.step < kMostSteps;
     if (!counts || !std::isfinite(clock.time + clock.even_time) || !(head_.dt > 0.0)) throw Error("its clock makes no sense");
     if (head_.materials.empty()) throw Error("it has no material");

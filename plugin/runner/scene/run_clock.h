@@ -6,7 +6,7 @@
 namespace nscdd {
 
 /// Where a run is, or several that follow each other.
-struct StepClock {
+struct RunClock {
   std::int64_t step = 0;        ///< steps done
   double time = 0.0;            ///< [s] sum of their time steps
   std::int64_t even_since = 0;  ///< all steps behind this one have had the same length; it ended at `even_time`
