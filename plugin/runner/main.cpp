@@ -112,7 +112,7 @@ class Program {
   void AddRun() {
     CLI::App* run = app_.add_subcommand("run", "Solve a scene step by step (also under mpirun)");
     run->add_option("scene", run_.scene, "Scene file (TOML)");
-    run->add_option("--resume", run_.resume, "Go on with the unfinished run in this folder, instead of a scene");
+    run->add_option("--resume", run_.resume, "Go on with the run in this folder, instead of a scene");
     AddSolverOptions(run, &run_.solver);
     run->add_flag_callback(
         "--cold", [this] { run_.solver.options.emplace_back("warm_start", "false"); }, "Begin every step from zero impulses");

@@ -28,7 +28,7 @@ class Continuation(ProgramTest):
         done = nscdd("run", "--resume", folder, "--quiet", *arguments, ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(p.name for p in folder.iterdir() if p.name != "communication.csv"),
-                         ["final.csv", "results.h5", "results.xdmf", "run.json", "steps.csv"])
+                         ["final.csv", "results.h5", "results.xdmf", "run.json", "state.h5", "steps.csv"])
 
     def compare(self, scene, *arguments, pairs=((0, 0),), at=4):
         expected = self.run_scene(scene, *arguments, out="expected")
@@ -210,7 +210,7 @@ class Refusals(ProgramTest):
         self.expect(["holds no run"], "run", "--resume", self.folder)
         scene = self.write("test.toml", TWO_DISKS)
         self.run_scene(scene, out="finished")
-        self.expect(["has finished (3 steps)", "nothing to resume"], "run", "--resume", "finished")
+        self.expect(["has finished (3 steps)", "a larger total"], "run", "--resume", "finished")
         (self.folder / "cut").mkdir()
         (self.folder / "cut/run.json.part").write_text("")
         self.expect(["no checkpoint", "begin it anew"], "run", "--resume", "cut", ranks=2)

@@ -17,7 +17,7 @@ class Run(ProgramTest):
         scene = self.write("test.toml", TWO_DISKS)
         out = self.run_scene(scene)
         self.assertEqual(sorted(p.name for p in out.iterdir()),
-                         ["final.csv", "results.h5", "results.xdmf", "run.json", "steps.csv"])
+                         ["final.csv", "results.h5", "results.xdmf", "run.json", "state.h5", "steps.csv"])
         self.assertTrue((out / "steps.csv").read_text().startswith(HEADER))
         steps = read_csv(out / "steps.csv")
         self.assertEqual([s["step"] for s in steps], ["1", "2", "3"])

@@ -63,6 +63,7 @@ class TimeStepper::Impl {
   void LoadState(std::span<const std::span<const std::byte>> parts) {
     ImpulseCache cache;
     kept_ = ReadStates(parts, partition_, description_, communicator_, &cache);
+    if (stepping_.alert_distance >= 0.0) kept_.alert = stepping_.alert_distance;
     migration_.Forget();
     cache_ = std::move(cache);
     is_cache_scattered_ = true;

@@ -13,7 +13,7 @@ namespace nscdd {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileExtent, name, size, crc)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputFile, path, hash)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, program, plugin_path, plugin, scene_text, scene_file, scene_path, scene_hash,
-                                   inputs, adapter, solver, options, steps, save_every, checkpoint_every)
+                                   inputs, notes, adapter, solver, options, steps, save_every, checkpoint_every)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckpointHead, run, pilot, step, ranks, tables, segments)
 
 std::string FormatHead(const CheckpointHead& head) { return nlohmann::json(head).dump(); }

@@ -26,6 +26,7 @@ struct RunRecord {
   std::string scene_path;   ///< absolute
   std::string scene_hash;
   std::vector<InputFile> inputs;
+  std::vector<std::string> notes;  ///< on how it began
   std::string adapter;
   std::string solver;
   std::vector<std::pair<std::string, std::string>> options;

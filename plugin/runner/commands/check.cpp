@@ -73,7 +73,7 @@ void Check(const std::filesystem::path& path, const std::string& adapter, const 
   const std::string name = adapter.empty() ? scene.adapter : adapter;
   const auto platform = MakePlatform(name, scene);
   ForEachBody(scene, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
-  platform->SetGravity(GravityAt(scene.gravity, 1, scene.time.dt));
+  platform->SetGravity(GravityAt(scene.gravity, 1, scene.time.dt, scene.clock()));
 
   BodyTable bodies;
   platform->adapter().ReadBodies(&bodies);

@@ -58,7 +58,7 @@ Exported FromScene(const ExportRequest& request) {
   AdapterHost host(&recorder);
   Solver solver = registry.Create({choice.name, choice.options, host.table(), {}});
   for (std::int64_t step = 1; step <= request.step; ++step) {
-    platform->SetGravity(GravityAt(scene.gravity, step, scene.time.dt));
+    platform->SetGravity(GravityAt(scene.gravity, step, scene.time.dt, scene.clock()));
     solver.Step(scene.time.dt);
   }
   RecordedStep step = recorder.Problem(SteppingOf(choice, registry), scene.time.dt);

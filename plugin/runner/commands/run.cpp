@@ -12,6 +12,7 @@
 #include "commands/print_notes.h"
 #include "commands/run_checkpoints.h"
 #include "commands/run_plan.h"
+#include "commands/run_state.h"
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
 #include "results/final_csv.h"
@@ -39,7 +40,7 @@ class SceneRun {
 
   int Execute() {
     if (!request_.resume.empty()) {
-      OpenUnfinished();
+      OpenEarlier();
     } else {
       ranks_.RunTogether([&] { plan_ = PlanRun(request_, ranks_.size()); });
     }
@@ -53,7 +54,7 @@ class SceneRun {
     solver_ = std::make_unique<Solver>(
         plan_.registry.Create({plan_.choice.name, plan_.choice.options, host_->table(), session_.solver_communicator()}));
     OpenResults();
-    if (plan_.record.checkpoint_every > 0) BeginCheckpoints();
+    Begin();
     const Ending ending = StepsOrHint();
     if (ending == Ending::kInterrupted) return SayHowToResume();
     if (ending == Ending::kNotConverged) folder_->Count("stopped_at_step", summary_.last.step);
@@ -65,10 +66,12 @@ class SceneRun {
  private:
   enum class Ending { kFinished, kNotConverged, kInterrupted };
 
-  void OpenUnfinished();
+  void OpenEarlier();
   void AddBodies();
   void OpenResults();
-  void BeginCheckpoints();
+  void Begin();
+  void WarmStart();
+  void Note(const std::string& sentence);
   Ending StepsOrHint();
   Ending Steps();
   void SaveInitialState();
@@ -77,7 +80,12 @@ class SceneRun {
   void CloseResults();
   void PrintSummary(bool stopped);
   int SayHowToResume();
-  std::int64_t done() const { return resume_ ? resume_->head().step : 0; }
+  std::int64_t before() const { return plan_.scene.clock().step; }
+  std::int64_t done() const { return resume_ ? resume_->head().step : before(); }
+  /// Whether its bodies and contacts are saved however long the run is.
+  bool IsSaved(std::int64_t step) const {
+    return step == before() + 1 || (plan_.record.save_every > 0 && step % plan_.record.save_every == 0);
+  }
 
   const RunRequest& request_;
   const RankGroup& ranks_;
@@ -85,7 +93,7 @@ class SceneRun {
   std::chrono::steady_clock::time_point start_;
   RunPlan plan_;
   std::unique_ptr<ResultsFolder> folder_;
-  std::unique_ptr<ResumePoint> resume_;  // null unless an unfinished run goes on
+  std::unique_ptr<ResumePoint> resume_;  // null unless an earlier run goes on
   std::unique_ptr<Platform> platform_;
   std::int64_t bodies_ = 0;  // of this rank's platform
   ShapeTable shapes_;
@@ -96,18 +104,20 @@ class SceneRun {
   std::unique_ptr<RunCheckpoints> checkpoints_;  // null if there are none
   RunSummary summary_;
   double seconds_before_ = 0.0;  // [s] that the steps before --resume took
+  RunClock clock_;               // after the last step
   std::string overlap_note_;
 };
 
-void SceneRun::OpenUnfinished() {
+void SceneRun::OpenEarlier() {
   ranks_.RunTogether([&] { RefuseConflicts(request_); });
   folder_ = std::make_unique<ResultsFolder>(request_.resume, ranks_);
-  resume_ = std::make_unique<ResumePoint>(request_.resume, ranks_);
+  resume_ = std::make_unique<ResumePoint>(request_.resume, ranks_, folder_->has_finished());
   for (const std::string& warning : resume_->warnings()) {
     fmt::print(stderr, "nscdd: WARNING: {} Going on from the checkpoint after step {} instead.\n", warning, done());
   }
   ranks_.RunTogether([&] { plan_ = PlanResumedRun(request_, resume_->head()); });
   ranks_.RunOnRoot([&] { CheckInputs(plan_.record.inputs); });
+  if (folder_->has_finished()) resume_->CopyResults(folder_.get(), !IsSaved(done()));
 }
 
 void SceneRun::AddBodies() {
@@ -141,6 +151,7 @@ void SceneRun::OpenResults() {
     std::filesystem::path out = request_.out;
     if (out.empty()) out = plan_.scene.output.dir;
     if (out.empty()) out = std::filesystem::path("results") / plan_.scene.name;
+    ranks_.RunOnRoot([&] { CheckStartStays(plan_.scene, out); });
     folder_ = std::make_unique<ResultsFolder>(out, IdentityOf(plan_, ranks_.size()), ranks_);
     csv_ = std::make_unique<StepsCsv>(folder_.get());
     file_ = std::make_unique<ResultsFile>(
@@ -160,21 +171,42 @@ void SceneRun::OpenResults() {
   summary_.ranks = ranks_.size();
   summary_.subdomains_x = plan_.subdomains_x;
   summary_.subdomains_y = plan_.subdomains_y;
-  summary_.steps_asked = plan_.record.steps;
+  summary_.steps_asked = plan_.record.steps - before();
 }
 
-/// Checkpoint 0, or the state of the one that the run goes on from.
-void SceneRun::BeginCheckpoints() {
-  checkpoints_ =
-      std::make_unique<RunCheckpoints>(plan_, folder_.get(), csv_.get(), file_.get(), platform_.get(), solver_.get());
+/// The state before the first step, and a checkpoint of it.
+void SceneRun::Begin() {
+  clock_ = plan_.scene.clock();
+  for (; clock_.step < done(); ++clock_.step) clock_.time += plan_.scene.time.dt;
+  if (plan_.record.checkpoint_every > 0) {
+    checkpoints_ =
+        std::make_unique<RunCheckpoints>(plan_, folder_.get(), csv_.get(), file_.get(), platform_.get(), solver_.get());
+  }
+  if (done() > before()) {
+    Restore(resume_->checkpoint(), bodies_, ranks_, platform_.get(), solver_.get());
+  } else if (plan_.scene.start) {
+    WarmStart();
+  }
   if (!resume_) {
     ranks_.RunOnRoot([&] { plan_.record.inputs = InputsOf(plan_.scene); });
-    checkpoints_->Write(0);
+    if (checkpoints_) checkpoints_->Write(done());
     return;
   }
-  Restore(resume_->checkpoint(), bodies_, ranks_, platform_.get(), solver_.get());
-  checkpoints_->set_last_step(done());
+  if (checkpoints_) checkpoints_->set_last_step(done());
   if (ranks_.is_root() && !request_.quiet) fmt::print("going on after step {} of {}\n", done(), plan_.record.steps);
+}
+
+void SceneRun::WarmStart() {
+  const std::string obstacle = LoadSolverState(plan_, ranks_, solver_.get());
+  if (obstacle.empty() || resume_) return;  // whoever began the run was told
+  plan_.record.notes.push_back(fmt::format("The first step begins from zero impulses, those in {} cannot be used: {}.",
+                                           plan_.scene.start->path.string(), obstacle));
+  Note(plan_.record.notes.back());
+}
+
+void SceneRun::Note(const std::string& sentence) {
+  folder_->Note(sentence);
+  if (ranks_.is_root() && !request_.quiet) PrintNotes({{sentence}});
 }
 
 /// An error on the way does not end the run for good.
@@ -189,25 +221,29 @@ SceneRun::Ending SceneRun::StepsOrHint() {
 }
 
 SceneRun::Ending SceneRun::Steps() {
-  const std::int64_t last = plan_.record.steps, every = plan_.record.save_every;
+  const std::int64_t last = plan_.record.steps;
   const double dt = plan_.scene.time.dt;
   ProgressBar bar(stdout, ranks_.is_root() ? ProgressBar::StyleFor(stdout, request_.quiet) : ProgressBar::Style::kNone, last,
                   {}, done());
   for (std::int64_t step = done() + 1; step <= last; ++step) {
     if (checkpoints_ && checkpoints_->IsToldToEnd(step - 1)) return Ending::kInterrupted;
-    platform_->SetGravity(GravityAt(plan_.scene.gravity, step, dt));
+    platform_->SetGravity(GravityAt(plan_.scene.gravity, step - before(), dt, plan_.scene.clock()));
     solver_->Step(dt);
-    const StepReport report = solver_->Report();
+    // The solver's own count goes back to the state that it was given, if any.
+    StepReport report = solver_->Report();
+    clock_.step = report.step = step;
+    clock_.time = report.time = clock_.time + dt;
     const StepRow row = MakeStepRow(report);
     folder_->KeepParts();
     csv_->Append(row);
     summary_.Add(row);
     bar.Update(row);
     const bool stop = !IsAsAsked(report.solve.status) && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
-    if (step == 1) NoteDeepOverlaps(report.mean_radius);
-    if (step == 1 || step == last || stop || (every > 0 && step % every == 0)) Save(row);
+    if (step == before() + 1) NoteDeepOverlaps(report.mean_radius);
+    if (IsSaved(step) || step == last || stop) Save(row);
     if (stop) return Ending::kNotConverged;
     if (plan_.pilot) {
+      report.step = step - before();
       plan_.pilot->AfterStep(report, dt, step < last, ranks_, session_, *host_, &platform_->adapter(), solver_.get());
     }
     if (checkpoints_) checkpoints_->WriteIfDue(step);
@@ -218,12 +254,13 @@ SceneRun::Ending SceneRun::Steps() {
 void SceneRun::SaveInitialState() {
   GrainTable grains;
   ranks_.RunTogether([&] { grains = MakeGrainTable(&platform_->adapter()); });
-  file_->Save({0, 0.0, MeanRadius(grains, ranks_)}, grains, {});
+  const RunClock start = plan_.scene.clock();
+  file_->Save({start.step, start.TimeOf(start.step, plan_.scene.time.dt), MeanRadius(grains, ranks_)}, grains, {});
 }
 
 void SceneRun::Save(const StepRow& row) {
   const double dt = plan_.scene.time.dt;
-  file_->Save({row.step, static_cast<double>(row.step) * dt, row.mean_radius}, MakeGrainTable(*solver_),
+  file_->Save({row.step, plan_.scene.clock().TimeOf(row.step, dt), row.mean_radius}, MakeGrainTable(*solver_),
               MakeContactRows(*solver_, dt));
 }
 
@@ -240,13 +277,18 @@ void SceneRun::NoteDeepOverlaps(double mean_radius) {
 
 void SceneRun::CloseResults() {
   file_->Close();
+  const std::vector<FileExtent> tables = csv_->Keep();
   csv_->Close();
   const BodyRoles roles(plan_.scene);
   WriteFinalCsv(folder_.get(), MakeGrainTable(*solver_), [&](std::int64_t id) { return roles.Of(id); });
   if (!plan_.scene.output.packing.empty()) {
-    ranks_.RunOnRoot(
-        [&] { WritePacking(plan_.scene, folder_->Stage("final.csv"), folder_->Stage(plan_.scene.output.packing)); });
+    std::string omissions;
+    ranks_.RunOnRoot([&] {
+      omissions = WritePacking(plan_.scene, folder_->Stage("final.csv"), folder_->Stage(plan_.scene.output.packing));
+    });
+    if (!omissions.empty()) Note(omissions);
   }
+  WriteState(plan_, clock_, tables, *solver_, folder_.get());
   if (plan_.pilot) {
     folder_->Count("escalations", plan_.pilot->escalations());
     folder_->Count("descents", plan_.pilot->descents());

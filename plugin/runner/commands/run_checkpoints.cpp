@@ -33,8 +33,9 @@ std::vector<SavedBody> BodiesOf(PlatformAdapter* adapter) {
 }  // namespace
 
 std::vector<SavedBody> RunCheckpoints::BodiesAfter(std::int64_t step) {
-  if (step == 0) return {};  // they are the scene's
-  const bool solver_is_new = plan_.pilot && plan_.pilot->changed_after() == step;
+  const std::int64_t first = plan_.scene.clock().step;
+  if (step == first) return {};  // they are the scene's
+  const bool solver_is_new = plan_.pilot && plan_.pilot->changed_after() == step - first;
   return solver_is_new ? BodiesOf(&platform_->adapter()) : BodiesOf(*solver_);
 }
 
@@ -65,7 +66,6 @@ bool RunCheckpoints::IsToldToEnd(std::int64_t step) {
 std::string RunCheckpoints::command() const { return fmt::format("nscdd run --resume {}", folder_->path().string()); }
 
 void Restore(const Checkpoint& checkpoint, std::int64_t bodies, const RankGroup& ranks, Platform* platform, Solver* solver) {
-  if (checkpoint.head.step == 0) return;
   std::int64_t saved = 0, restored = 0;
   std::vector<std::span<const std::byte>> states;
   ranks.RunTogether([&] {

@@ -49,8 +49,8 @@ class RunCheckpoints {
   StopSignal stop_;
 };
 
-/// Gives the bodies and the solver of this rank the state of a checkpoint. Collective. Throws Error on all ranks when the
-/// checkpoint has other bodies than the scene. `bodies`: of this rank's platform.
+/// Gives the bodies and the solver of this rank the state of a checkpoint after a step of the run. Collective. Throws Error on
+/// all ranks when the checkpoint has other bodies than the scene. `bodies`: of this rank's platform.
 void Restore(const Checkpoint& checkpoint, std::int64_t bodies, const RankGroup& ranks, Platform* platform, Solver* solver);
 
 }  // namespace nscdd

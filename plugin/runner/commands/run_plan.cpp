@@ -45,8 +45,7 @@ void RefuseConflicts(const RunRequest& request) {
 }
 
 RunPlan PlanRun(const RunRequest& request, int ranks) {
-  if (request.scene.empty())
-    throw Error("give a scene file (nscdd run SCENE.toml), or --resume and the folder of an unfinished run.");
+  if (request.scene.empty()) throw Error("give a scene file (nscdd run SCENE.toml), or --resume and the folder of a run.");
   RunPlan plan;
   RunRecord& record = plan.record;
   record.scene_text = ReadTomlText(request.scene);
@@ -62,7 +61,7 @@ RunPlan PlanRun(const RunRequest& request, int ranks) {
   record.adapter = request.adapter.empty() ? plan.scene.adapter : request.adapter;
   record.solver = plan.choice.name;
   record.options = plan.choice.options;
-  record.steps = request.steps.value_or(plan.scene.time.steps);
+  record.steps = plan.scene.clock().step + request.steps.value_or(plan.scene.time.steps);
   record.save_every = request.save_every.value_or(plan.scene.output.save_every.value_or(0));
   record.checkpoint_every = request.checkpoint_every.value_or(plan.scene.output.checkpoint_every.value_or(0));
   Complete(&plan);
@@ -79,6 +78,11 @@ RunPlan PlanResumedRun(const RunRequest& request, const CheckpointHead& head) {
   plan.record = record;
   plan.record.steps = request.steps.value_or(record.steps);
   plan.record.checkpoint_every = request.checkpoint_every.value_or(record.checkpoint_every);
+  if (plan.record.steps <= head.step && record.steps == head.step) {
+    throw Error(
+        fmt::format("the run in {0} has finished ({1} steps): give a larger total to go on with it, such as --steps {2}.",
+                    request.resume.string(), head.step, 2 * head.step));
+  }
   if (plan.record.steps <= head.step) {
     throw Error(fmt::format("--steps {}: the checkpoint in {} is after step {}; give a larger total, or leave it out.",
                             plan.record.steps, request.resume.string(), head.step));
@@ -98,8 +102,9 @@ RunPlan PlanResumedRun(const RunRequest& request, const CheckpointHead& head) {
 std::vector<InputFile> InputsOf(const Scene& scene) {
   std::vector<InputFile> inputs;
   for (const BodySource& source : scene.bodies) {
-    const auto* file = std::get_if<DiskFile>(&source.what);
-    if (file != nullptr) inputs.push_back({fs::absolute(file->path).string(), HashOfFile(file->path)});
+    const auto add = [&](const fs::path& path) { inputs.push_back({fs::absolute(path).string(), HashOfFile(path)}); };
+    if (const auto* file = std::get_if<DiskFile>(&source.what)) add(file->path);
+    if (const auto* state = std::get_if<StateBodies>(&source.what)) add(state->path);
   }
   return inputs;
 }
@@ -116,8 +121,13 @@ RunIdentity IdentityOf(const RunPlan& plan, int ranks) {
   const RunRecord& run = plan.record;
   RunIdentity identity{plan.scene.name,   run.scene_file, run.scene_hash, run.program, {}, plan.scene.notes.sentences,
                        plan.scene.time.dt};
+  identity.notes.insert(identity.notes.end(), run.notes.begin(), run.notes.end());
   identity.settings = {
       {"adapter", run.adapter}, {"ranks", std::to_string(ranks)}, {"steps", std::to_string(run.steps)}, {"solver", run.solver}};
+  if (plan.scene.start) {
+    identity.settings.emplace_back("start_state", plan.scene.start->path.string());
+    identity.settings.emplace_back("start_step", std::to_string(plan.scene.clock().step));
+  }
   if (run.checkpoint_every > 0) identity.settings.emplace_back("checkpoint_every", std::to_string(run.checkpoint_every));
   identity.settings.insert(identity.settings.end(), run.options.begin(), run.options.end());
   return identity;

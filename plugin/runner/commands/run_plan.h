@@ -31,8 +31,8 @@ void RefuseConflicts(const RunRequest& request);
 /// Throws Error on bad input.
 RunPlan PlanRun(const RunRequest& request, int ranks);
 
-/// The same run again, with the number of steps and of those between checkpoints that the command line may give. Throws Error
-/// when its plugin or this program is another one than it was, or no step is left to do.
+/// The same run again, or further with the number of steps and of those between checkpoints that the command line may give.
+/// Throws Error when its plugin or this program is another one than it was, or no step is left to do.
 RunPlan PlanResumedRun(const RunRequest& request, const CheckpointHead& head);
 
 /// The files that the scene names, read through.

@@ -113,7 +113,7 @@ void TradeoffCommand::Prepare() {
 void TradeoffCommand::ReadStepping() {
   const auto platform = MakePlatform(plan_.adapter, scene_);
   ForEachBody(scene_, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
-  platform->SetGravity(GravityAt(scene_.gravity, 1, scene_.time.dt));
+  platform->SetGravity(GravityAt(scene_.gravity, 1, scene_.time.dt, scene_.clock()));
   plan_.mean_radius = 10.0 * DefaultAlertDistance(ReadSortedBodies(&platform->adapter()));
   const auto number = [&](const char* key) { return std::stod(OptionValue(choice_, registry_, key)); };
   SteppingOptions& s = plan_.stepping;

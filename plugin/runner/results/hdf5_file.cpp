@@ -28,11 +28,13 @@ RowRange::RowRange(const RankGroup& ranks, std::size_t rows)
 Hdf5File::Hdf5File(const std::filesystem::path& path, const RankGroup& ranks)
     : path_(path), ranks_(ranks), parallel_(!ranks.is_serial()) {}
 
-Hdf5File Hdf5File::Create(const std::filesystem::path& path, const RankGroup& ranks) {
+Hdf5File Hdf5File::Create(const std::filesystem::path& path, const RankGroup& ranks, hsize_t user_block) {
   Hdf5File file(path, ranks);
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, file.Writing());
+  CheckHdf5(H5Pset_userblock(creation.id(), user_block), file.Writing());
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file.Writing());
   if (file.parallel_) CheckHdf5(H5Pset_fapl_mpio(access.id(), ranks.communicator(), MPI_INFO_NULL), file.Writing());
-  file.file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, file.Writing());
+  file.file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, file.Writing());
   return file;
 }
 
@@ -133,6 +135,22 @@ std::size_t Hdf5File::RowsOf(const Hdf5Handle& column) const {
 
 void Hdf5File::Read(const Hdf5Handle& column, hid_t type, void* data) const {
   CheckHdf5(H5Dread(column.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), Reading("a column"));
+}
+
+void Hdf5File::CheckRows(const Hdf5Handle& column, const char* name, std::int64_t first, std::int64_t count) const {
+  const Hdf5Handle space(H5Dget_space(column.id()), H5Sclose, Reading(name));
+  const bool fits = H5Sget_simple_extent_ndims(space.id()) == 1 && first >= 0 && count >= 0 &&
+                    first <= H5Sget_simple_extent_npoints(space.id()) - count;
+  if (!fits) throw Error("the column " + std::string(name) + " in " + path_.string() + " has another number of rows.");
+}
+
+void Hdf5File::ReadRows(const Hdf5Handle& column, hid_t type, std::int64_t first, std::int64_t count, void* data) const {
+  if (count == 0) return;
+  const auto from = static_cast<hsize_t>(first), rows = static_cast<hsize_t>(count);
+  const Hdf5Handle space(H5Dget_space(column.id()), H5Sclose, Reading("a column"));
+  const Hdf5Handle memory(H5Screate_simple(1, &rows, nullptr), H5Sclose, Reading("a column"));
+  CheckHdf5(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &from, nullptr, &rows, nullptr), Reading("a column"));
+  CheckHdf5(H5Dread(column.id(), type, memory.id(), space.id(), H5P_DEFAULT, data), Reading("a column"));
 }
 
 void Hdf5File::WriteScalar(const Hdf5Handle& object, const char* name, hid_t type, const void* value) {

@@ -42,8 +42,9 @@ struct RowRange {
 /// Tables of columns and attributes in one HDF5 file. With several ranks all calls are collective (MPI-IO).
 class Hdf5File {
  public:
-  /// Creates the file, replacing one that is there.
-  static Hdf5File Create(const std::filesystem::path& path, const RankGroup& ranks);
+  /// Creates the file, replacing one that is there. It begins with a user block of so many bytes (0, 512 or a power of two
+  /// above), which HDF5 leaves alone.
+  static Hdf5File Create(const std::filesystem::path& path, const RankGroup& ranks, hsize_t user_block = 0);
   /// Opens it for reading in one process.
   static Hdf5File Open(const std::filesystem::path& path);
 
@@ -76,6 +77,16 @@ class Hdf5File {
   }
   void ReadVectors(const Hdf5Handle& group, const char* name, std::vector<double>* x, std::vector<double>* y) const;
 
+  /// The rows [first, first + count). Throws Error if the column has not so many.
+  template <class T>
+  void ReadRows(const Hdf5Handle& group, const char* name, std::int64_t first, std::int64_t count,
+                std::vector<T>* column) const {
+    const Hdf5Handle data = OpenColumn(group, name);
+    CheckRows(data, name, first, count);
+    column->resize(static_cast<std::size_t>(count));
+    ReadRows(data, Hdf5TypeOf<T>(), first, count, column->data());
+  }
+
   /// A text of fixed length as a data set of its own.
   void WriteText(const Hdf5Handle& group, const char* name, const std::string& text);
   std::uint64_t RowsOf(const Hdf5Handle& group, const char* name) const { return RowsOf(OpenColumn(group, name)); }
@@ -102,6 +113,8 @@ class Hdf5File {
   Hdf5Handle OpenColumn(const Hdf5Handle& group, const char* name) const;
   std::size_t RowsOf(const Hdf5Handle& column) const;
   void Read(const Hdf5Handle& column, hid_t type, void* data) const;
+  void CheckRows(const Hdf5Handle& column, const char* name, std::int64_t first, std::int64_t count) const;
+  void ReadRows(const Hdf5Handle& column, hid_t type, std::int64_t first, std::int64_t count, void* data) const;
   std::string Writing() const { return "write " + path_.string(); }
   std::string Reading(const std::string& name) const { return "read " + name + " in " + path_.string(); }
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* kMarker = "run.json";
 constexpr const char* kFormat = "nscdd run 1";
 constexpr const char* kFinished = "run.json.finished";  // the marker of a run that has ended, while its files get their names
-constexpr std::array kOwnNames = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf"};
+constexpr std::array kOwnNames = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf", kStateName};
 
 std::string ReadAll(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -90,15 +90,18 @@ void RefuseToLoseCheckpoints(const fs::path& folder) {
                   folder.string(), steps.back(), CheckpointName(steps.back())));
 }
 
-[[noreturn]] void RefuseFinished(const fs::path& folder, const nlohmann::json& marker) {
+/// A run that has ended goes on from its state file, unless it was stopped.
+void CheckFinished(const fs::path& folder, const nlohmann::json& marker) {
   const std::string steps = marker.value("/settings/steps"_json_pointer, std::string("all"));
   if (marker.contains("/summary/stopped_at_step"_json_pointer)) {
     throw Error(
-        fmt::format("the run in {} stopped for good at step {} of {}, which did not converge (solver.on_nonconvergence = "
-                    "\"stop\"): begin it anew with other settings.",
-                    folder.string(), marker["summary"]["stopped_at_step"].dump(), steps));
+        fmt::format("the run in {0} stopped for good at step {1} of {2}, which did not converge (solver.on_nonconvergence = "
+                    "\"stop\"): begin it anew with other settings, or a scene with [start] state = \"{0}/{3}\".",
+                    folder.string(), marker["summary"]["stopped_at_step"].dump(), steps, kStateName));
   }
-  throw Error(fmt::format("the run in {} has finished ({} steps): there is nothing to resume.", folder.string(), steps));
+  if (fs::exists(folder / kStateName)) return;
+  throw Error(fmt::format("the run in {} has finished ({} steps) and left no {} to go on from: begin it anew.", folder.string(),
+                          steps, kStateName));
 }
 
 /// Gives the files of a run that has ended their names and removes what is not needed any more. If it is cut short, it can be
@@ -163,11 +166,12 @@ ResultsFolder::ResultsFolder(const fs::path& folder, const RunIdentity& identity
 ResultsFolder::ResultsFolder(const fs::path& folder, const RankGroup& ranks)
     : folder_(folder), ranks_(ranks), keep_parts_(true) {
   try {
-    ranks_.RunOnRoot([&] { ClaimUnfinished(); });
+    ranks_.RunOnRoot([&] { ClaimAgain(); });
   } catch (const Error&) {
     Release();
     throw;
   }
+  has_finished_ = ranks_.Min(has_finished_ ? 0 : 1) == 0;
 }
 
 ResultsFolder::~ResultsFolder() { Release(); }
@@ -184,32 +188,41 @@ void ResultsFolder::Claim() {
   }
   RefuseToLoseCheckpoints(folder_);
   keep_parts_ = false;
-  for (const std::string name : kOwnNames) fs::remove(folder_ / PartOf(name));
-  RemoveScratch(folder_);
+  RemoveLeftovers();
   StagedFile(folder_ / PartOf(kMarker)).Write(MarkerOf(identity_).dump(2) + "\n");
 }
 
-void ResultsFolder::ClaimUnfinished() {
+void ResultsFolder::ClaimAgain() {
   if (!fs::is_directory(folder_)) {
-    throw Error(fmt::format("there is no folder {}: give that of an unfinished run, as its --out said.", folder_.string()));
+    throw Error(fmt::format("there is no folder {}: give that of a run, as its --out said.", folder_.string()));
   }
-  if (!fs::exists(folder_ / PartOf(kMarker)) && !fs::exists(folder_ / kFinished)) {
-    const nlohmann::json marker = ReadMarker(folder_ / kMarker);
-    if (!marker.is_null()) RefuseFinished(folder_, marker);
-    throw Error(fmt::format("the folder {} holds no run of nscdd: give that of an unfinished run, as its --out said.",
-                            folder_.string()));
+  if (!fs::exists(folder_ / PartOf(kMarker)) && !fs::exists(folder_ / kFinished) && ReadMarker(folder_ / kMarker).is_null()) {
+    throw Error(fmt::format("the folder {} holds no run of nscdd: give that of a run, as its --out said.", folder_.string()));
   }
   Lock();
   if (fs::exists(folder_ / kFinished)) {
     CompleteFinish(folder_);
-    RefuseFinished(folder_, ReadMarker(folder_ / kMarker));
+    ::close(lock_);
+    Lock();
   }
-  if (CheckpointSteps(folder_).empty()) {
+  if (!CheckpointSteps(folder_).empty()) return;
+  const nlohmann::json marker = ReadMarker(folder_ / kMarker);
+  if (marker.is_null()) {
     throw Error(fmt::format(
         "the run in {} has no checkpoint (--checkpoint-every was not given, or the run ended before its first step): "
         "begin it anew with 'nscdd run SCENE'.",
         folder_.string()));
   }
+  has_finished_ = true;
+  keep_parts_ = false;
+  CheckFinished(folder_, marker);
+  RemoveLeftovers();
+}
+
+/// Of a run that left no checkpoint.
+void ResultsFolder::RemoveLeftovers() {
+  for (const std::string name : kOwnNames) fs::remove(folder_ / PartOf(name));
+  RemoveScratch(folder_);
 }
 
 void ResultsFolder::Lock() {

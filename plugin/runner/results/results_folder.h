@@ -18,7 +18,7 @@ struct RunIdentity {
   std::string scene_hash;  ///< HashOfFile() of it
   std::string version;     ///< of the program
   std::vector<std::pair<std::string, std::string>> settings;  ///< what the run was asked for, in this order
-  std::vector<std::string> notes = {};                        ///< sentences on its input
+  std::vector<std::string> notes = {};                        ///< sentences on its input and its end
   double dt = 0.0;                                            ///< [s] the end of step k is at k dt
 };
 
@@ -36,8 +36,9 @@ class ResultsFolder {
   /// or another program's files under our names, or checkpoints of an unfinished run, cannot be written, or another run writes
   /// into it now.
   ResultsFolder(const std::filesystem::path& folder, const RunIdentity& identity, const RankGroup& ranks);
-  /// Collective. Claims the folder of an unfinished run to go on with it; whatever happens, that run's files stay. Throws Error
-  /// on all ranks when there is none, it has no checkpoint, it has finished, or it is running.
+  /// Collective. Claims the folder of a run to go on with it, from a checkpoint or, when it has finished, from its state file;
+  /// whatever happens, that run's files stay. Throws Error on all ranks when there is none, it has neither, it is running, or
+  /// it was stopped by a step that did not converge.
   ResultsFolder(const std::filesystem::path& folder, const RankGroup& ranks);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
@@ -52,6 +53,10 @@ class ResultsFolder {
   void Identify(const RunIdentity& identity) { identity_ = identity; }
   /// A number for the "summary" of run.json; before Finish().
   void Count(const std::string& name, std::int64_t value) { counts_.emplace_back(name, value); }
+  /// A sentence for the "notes" of run.json; before Finish().
+  void Note(const std::string& sentence) { identity_.notes.push_back(sentence); }
+  /// The run to go on with has left its results and no checkpoint of a later step.
+  bool has_finished() const { return has_finished_; }
   /// From now on an unfinished run keeps its ".part" files.
   void KeepParts() { keep_parts_ = true; }
   /// Collective, once, after all files are closed: gives them their names, and removes what an earlier run left besides.
@@ -59,7 +64,8 @@ class ResultsFolder {
 
  private:
   void Claim();
-  void ClaimUnfinished();
+  void ClaimAgain();
+  void RemoveLeftovers();
   void Lock();
   void Release();
   void Rename();
@@ -72,6 +78,7 @@ class ResultsFolder {
   std::vector<std::filesystem::path> created_;  ///< folders that were not there before, innermost first
   int lock_ = -1;                               ///< descriptor of run.json.part on rank 0
   bool keep_parts_ = false;
+  bool has_finished_ = false;
   bool finished_ = false;
 };
 

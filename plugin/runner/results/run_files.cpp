@@ -44,6 +44,7 @@ void Remove(const fs::path& folder, Predicate is_meant) {
 }  // namespace
 
 std::string PartOf(const std::string& name) { return name + ".part"; }
+std::string NameOfPart(const std::string& part) { return part.substr(0, part.size() - std::string_view(".part").size()); }
 std::string CheckpointName(std::int64_t step) { return fmt::format("checkpoint_{:06}.ckpt", step); }
 std::string SegmentName(std::int64_t step) { return fmt::format("results_{:06}.h5.part", step); }
 

@@ -14,6 +14,10 @@ namespace nscdd {
 
 /// Of a file that gets the name `name` at the end.
 std::string PartOf(const std::string& name);
+/// The name that a PartOf() gets at the end.
+std::string NameOfPart(const std::string& part);
+inline constexpr const char* kResultsName = "results.h5";
+inline constexpr const char* kStateName = "state.h5";
 /// Of the checkpoint after step `step`.
 std::string CheckpointName(std::int64_t step);
 /// Of the part of results.h5 that begins with step `step`; 0: with the shapes.

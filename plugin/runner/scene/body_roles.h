@@ -18,6 +18,8 @@ class BodyRoles {
   std::string_view Of(std::int64_t id) const;
 
  private:
+  void AddState(const StateBodies& bodies);
+
   FreeIds free_ids_;
   std::int64_t walls_ = 0;            ///< without an id of their own: the first free ids
   std::int64_t before_clusters_ = 0;  ///< bodies without an id before the first cluster; clusters are the last

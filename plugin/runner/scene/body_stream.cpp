@@ -11,6 +11,7 @@
 #include "nscdd/error.h"
 #include "scene/disk_file.h"
 #include "scene/read_bodies.h"
+#include "state/state_reader.h"
 
 namespace nscdd {
 namespace {
@@ -23,6 +24,18 @@ class SourceVisitor {
   SourceVisitor(const Scene& scene, const BodySource& source, std::int64_t number, std::int64_t first, std::int64_t last,
                 const std::function<void(const BodyDefinition&)>& visit)
       : scene_(scene), source_(source), number_(number), first_(first), last_(last), visit_(visit) {}
+
+  void operator()(const StateBodies& state) const {
+    const StateReader reader(state.path);
+    if (reader.checksum() != state.checksum)
+      throw Error(fmt::format("{}: has changed since the scene was read; leave it alone during a run.", state.path.string()));
+    reader.ForEachBody(first_, last_, [this](const BodyDefinition& saved) {
+      BodyDefinition body = saved;
+      body.friction = material(body.material).friction;
+      body.restitution = material(body.material).restitution;
+      visit_(body);
+    });
+  }
 
   void operator()(const SingleDisk& disk) const {
     BodyDefinition body = MakeDisk({{disk.pose.x, disk.pose.y}, disk.radius});
@@ -63,12 +76,13 @@ class SourceVisitor {
 
   void operator()(const Cluster& cluster) const {
     for (std::int64_t i = first_; i < last_; ++i) {
-      BodyDefinition body = reference::MakeCluster(0, cluster.disks, material(source_.material).density);
+      BodyDefinition body{reference::MakeCluster(0, cluster.disks, material(source_.material).density)};
       const Pose& at = cluster.at[static_cast<std::size_t>(i)];
       const Vec2 centre = Centre(at) + Rotate(at.angle, Centre(body.pose));
       body.pose = {centre.x, centre.y, at.angle};
       body.mass = cluster.mass.value_or(body.mass);
       body.inertia = cluster.inertia.value_or(body.inertia);
+      body.role = BodyRole::kCluster;
       Finish(source_.material, &body);
       Give(i, std::move(body));
     }
@@ -77,7 +91,8 @@ class SourceVisitor {
   void operator()(const Wall& wall) const {
     for (std::int64_t i = first_; i < last_; ++i) {
       const Vec2 centre = wall.one_body ? wall.centre : wall.disks[static_cast<std::size_t>(i)].centre;
-      BodyDefinition body = reference::MakeWall(0, {centre.x, centre.y, 0.0});
+      BodyDefinition body{reference::MakeWall(0, {centre.x, centre.y, 0.0})};
+      body.role = BodyRole::kWall;
       Finish(source_.material, &body);
       if (wall.one_body) CopyShapes(wall, &body);
       if (!wall.one_body) body.disks = {{{}, wall.disks[static_cast<std::size_t>(i)].radius}};
@@ -92,6 +107,7 @@ class SourceVisitor {
 
   void Finish(int material_index, BodyKind kind, BodyDefinition* body) const {
     body->kind = kind;
+    body->material = material_index;
     body->friction = material(material_index).friction;
     body->restitution = material(material_index).restitution;
     body->velocity = source_.velocity;
@@ -99,7 +115,7 @@ class SourceVisitor {
   }
 
   BodyDefinition MakeDisk(const reference::Disk& disk, int material_index, BodyKind kind) const {
-    BodyDefinition body = reference::MakeDisk(0, disk.centre, disk.radius, material(material_index).density);
+    BodyDefinition body{reference::MakeDisk(0, disk.centre, disk.radius, material(material_index).density)};
     Finish(material_index, kind, &body);
     return body;
   }
@@ -146,6 +162,9 @@ struct OwnId {
 
 void CollectIds(const BodySource& source, std::int32_t index, std::vector<OwnId>* ids) {
   if (source.id) ids->push_back({*source.id, index, 0});
+  if (const auto* state = std::get_if<StateBodies>(&source.what)) {
+    for (const std::int64_t id : StateReader(state->path).Ids()) ids->push_back({id, index, 0});
+  }
   const auto* file = std::get_if<DiskFile>(&source.what);
   if (file == nullptr || !file->has_ids) return;
   DiskFileReader reader(file->path);
@@ -154,6 +173,7 @@ void CollectIds(const BodySource& source, std::int32_t index, std::vector<OwnId>
 
 std::string Place(const Scene& scene, const OwnId& id) {
   const BodySource& source = scene.bodies[static_cast<std::size_t>(id.source)];
+  if (const auto* state = std::get_if<StateBodies>(&source.what)) return fmt::format("{}:", state->path.string());
   if (id.line == 0) return fmt::format("{}:{}: key '{}.id'", scene.file.string(), source.line, source.key);
   return fmt::format("{}:{}:", std::get<DiskFile>(source.what).path.string(), id.line);
 }
@@ -168,7 +188,7 @@ std::int64_t CountBodies(const Scene& scene) {
 
 bool TakesFreeIds(const BodySource& source) {
   const auto* file = std::get_if<DiskFile>(&source.what);
-  return !source.id && !(file != nullptr && file->has_ids);
+  return !source.id && !std::holds_alternative<StateBodies>(source.what) && !(file != nullptr && file->has_ids);
 }
 
 void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit) {

@@ -4,13 +4,10 @@
 #include <cstdint>
 #include <functional>
 
-#include "nscdd/reference/world.h"
+#include "scene/body_definition.h"
 #include "scene/scene.h"
 
 namespace nscdd {
-
-/// A body, complete, as platforms take it; the reference platform's description serves all of them.
-using BodyDefinition = reference::Body;
 
 /// Bodies of the scene, walls included.
 std::int64_t CountBodies(const Scene& scene);
@@ -19,7 +16,8 @@ std::int64_t CountBodies(const Scene& scene);
 bool TakesFreeIds(const BodySource& source);
 
 /// Calls `visit` for the bodies of this rank in the order of the scene: number k of n goes to rank floor(k ranks / n). Holds
-/// one body at a time (and the surface of a deposition). Throws Error when a table has changed since the scene was read.
+/// one body at a time (and the surface of a deposition). Throws Error when a file that it names has changed since the scene was
+/// read.
 void ForEachBody(const Scene& scene, int rank, int ranks, const std::function<void(const BodyDefinition&)>& visit);
 
 /// The ids that are left for bodies without one. Reads the tables that have ids; needs 16 bytes per body with an id of its own,

@@ -13,6 +13,9 @@ struct Sum {
 struct SourceSum {
   double bodies;
 
+  Sum operator()(const StateBodies& state) const {
+    return state.mean_radius > 0.0 ? Sum{bodies, bodies * state.mean_radius} : Sum{};
+  }
   Sum operator()(const SingleDisk& disk) const { return {1.0, disk.radius}; }
   Sum operator()(const DiskFile& file) const { return {static_cast<double>(file.free), file.free_radii}; }
   Sum operator()(const Lattice& lattice) const { return {bodies, bodies * 0.5 * (lattice.min_radius + lattice.max_radius)}; }

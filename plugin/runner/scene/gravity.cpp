@@ -33,8 +33,9 @@ struct Evaluate {
 
 }  // namespace
 
-Vec2 GravityAt(const GravityLaw& law, std::int64_t step, double dt) {
-  return std::visit(Evaluate{step, static_cast<double>(step - 1) * dt}, law);
+Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const RunClock& start) {
+  const std::int64_t step = start.step + k;
+  return std::visit(Evaluate{step, start.TimeOf(step - 1, dt)}, law);
 }
 
 }  // namespace nscdd

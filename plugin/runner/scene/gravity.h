@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nscdd/vector.h"
+#include "scene/run_clock.h"
 
 namespace nscdd {
 
@@ -36,7 +37,7 @@ struct GravityTable {
 
 using GravityLaw = std::variant<ConstantGravity, RotatingGravity, GravityTable>;
 
-/// Gravity [m/s^2] during step `step` >= 1 of `dt` [s]: its value at the beginning of the step, time (step - 1) dt.
-Vec2 GravityAt(const GravityLaw& law, std::int64_t step, double dt);
+/// Gravity [m/s^2] during the k-th step, k >= 1, of `dt` [s] behind `start`: its value at the beginning of the step.
+Vec2 GravityAt(const GravityLaw& law, std::int64_t k, double dt, const RunClock& start = {});
 
 }  // namespace nscdd

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "scene/body_stream.h"
 #include "scene/names.h"
 #include "scene/read_bodies.h"
+#include "scene/read_start.h"
 #include "scene/read_walls.h"
 #include "scene/table_reader.h"
 #include "scene/toml_file.h"
@@ -38,7 +40,8 @@ void CheckName(const TableReader& table, std::string_view key, const std::string
 void CheckPackingName(const TableReader& table, const std::string& name) {
   CheckName(table, "packing", name);
   const std::filesystem::path path = name;
-  constexpr std::array kTaken = {"steps.csv", "communication.csv", "final.csv", "results.h5", "results.xdmf", "run.json"};
+  constexpr std::array kTaken = {"steps.csv",    "communication.csv", "final.csv", "results.h5",
+                                 "results.xdmf", "run.json",          "state.h5"};
   const bool is_taken = std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end();
   if (is_taken || path.extension() == ".part" || path.extension() == ".ckpt") {
     table.Refuse("packing", fmt::format("is '{}', a name of the run's own files; give another one, such as packing.csv", name));
@@ -118,23 +121,42 @@ void ReadPeriodicity(TableReader* root, Scene* scene) {
   if (!table) return;
   const std::vector<double> x = table->List("x", 2, "[origin, length] [m]");
   if (!(x[1] > 0.0)) table->Refuse("x", fmt::format("is [{}, {}]; give [origin, length] with length > 0 [m]", x[0], x[1]));
+  const std::optional<Periodicity> before = scene->periodic;  // of the state file
   scene->periodic = Periodicity{x[0], x[1]};
+  if (scene->start && !(before && before->origin == x[0] && before->length == x[1])) {
+    const std::string was = before ? fmt::format("[{}, {}]", before->origin, before->length) : "not periodic";
+    table->Refuse("x", fmt::format("is [{}, {}], the bodies of {} were {}; leave it out, it is taken from the file", x[0], x[1],
+                                   scene->start->path.string(), was));
+  }
   table->Finish();
 }
 
+/// Those of a state file are there already: an entry of the same name changes what its bodies are like to the touch.
 void ReadMaterials(TableReader* root, Scene* scene) {
+  std::set<std::string> read;
   for (TableReader& entry : root->Tables("materials")) {
     Material material;
     material.name = entry.Text("name");
+    if (!read.insert(material.name).second)
+      entry.Refuse("name", fmt::format("is '{}' twice; give each material its own", material.name));
+    const auto known = std::find_if(scene->materials.begin(), scene->materials.end(),
+                                    [&](const Material& other) { return other.name == material.name; });
+    if (known != scene->materials.end()) material = *known;
     material.density = entry.Number("density", Bound::kPositive, "[kg/m^2]", material.density);
     material.friction = entry.Number("friction", Bound::kNotNegative, "", material.friction);
     material.restitution = entry.Number("restitution", Bound::kFraction, "", material.restitution);
     entry.Finish();
-    for (const Material& other : scene->materials) {
-      if (other.name == material.name)
-        entry.Refuse("name", fmt::format("is '{}' twice; give each material its own", other.name));
+    if (known == scene->materials.end()) {
+      scene->materials.push_back(std::move(material));
+      continue;
     }
-    scene->materials.push_back(std::move(material));
+    if (material.density != known->density) {
+      entry.Refuse("density",
+                   fmt::format("is {}, the bodies of '{}' in {} have {} and keep their masses; leave it out, or give "
+                               "new bodies a material of another name",
+                               material.density, known->name, scene->start->path.string(), known->density));
+    }
+    *known = material;
   }
   if (scene->materials.empty()) scene->materials.push_back({.name = "default"});
 }
@@ -192,6 +214,21 @@ bool HasFreeBody(const BodySource& source) {
   return file != nullptr ? file->free > 0 : source.kind == BodyKind::kFree;
 }
 
+/// Names of materials stand in it between commas.
+void CheckPackingMaterials(const TableReader& root, const Scene& scene) {
+  if (scene.output.packing.empty()) return;
+  for (const Material& material : scene.materials) {
+    const std::string& name = material.name;
+    const bool fits =
+        !name.empty() && name.find_first_of(",\"'#\n\r\t") == std::string::npos && name.front() != ' ' && name.back() != ' ';
+    if (!fits) {
+      root.Refuse("output.packing", fmt::format("cannot hold the material '{}'; give it a name without commas, quotes, '#' and "
+                                                "spaces at its ends",
+                                                name));
+    }
+  }
+}
+
 void CheckBodies(const TableReader& root, const Scene& scene) {
   if (scene.bodies.empty())
     root.Refuse("disks",
@@ -212,6 +249,7 @@ Scene ParseScene(const std::string& text, const std::filesystem::path& path) {
   ReadHead(&root, &scene);
   ReadTime(&root, &scene);
   ReadGravity(&root, &scene);
+  ReadStart(&root, &scene);
   ReadPeriodicity(&root, &scene);
   ReadSolver(&root, &scene);
   ReadOutput(&root, &scene);
@@ -219,6 +257,7 @@ Scene ParseScene(const std::string& text, const std::filesystem::path& path) {
   ReadWalls(&root, &scene);
   ReadGrains(&root, &scene);
   root.Finish();
+  CheckPackingMaterials(root, scene);
   CheckBodies(root, scene);
   scene.free_ids = FindFreeIds(scene);
   return scene;

@@ -15,16 +15,11 @@
 #include "scene/free_ids.h"
 #include "scene/gravity.h"
 #include "scene/lattice.h"
+#include "scene/material.h"
 #include "scene/notes.h"
+#include "scene/run_clock.h"
 
 namespace nscdd {
-
-struct Material {
-  std::string name;
-  double density = 1.0;      ///< [kg/m^2]
-  double friction = 0.3;     ///< [-] Coulomb coefficient; the platform combines the two of a pair
-  double restitution = 0.0;  ///< [-] Newton coefficient
-};
 
 struct TimeSettings {
   double dt = 0.0;  ///< [s]
@@ -52,6 +47,13 @@ struct DiskFile {
   double free_radii = 0.0;  ///< [m] sum over them
 };
 
+/// The bodies of a state file, with their ids; read in blocks, never held.
+struct StateBodies {
+  std::filesystem::path path;
+  std::uint64_t checksum = 0;  ///< of the file, to see it change
+  double mean_radius = 0.0;    ///< [m] of its grains; 0: it has none
+};
+
 /// A rigid assembly of disks, at one or more places.
 struct Cluster {
   std::vector<reference::Disk> disks;  ///< in the frame that `at` places
@@ -73,7 +75,7 @@ struct Wall {
 struct BodySource {
   std::string key;  ///< where it stands, such as "disks[2]"
   int line = 0;
-  std::variant<SingleDisk, DiskFile, Lattice, Deposition, Cluster, Wall> what;
+  std::variant<StateBodies, SingleDisk, DiskFile, Lattice, Deposition, Cluster, Wall> what;
   std::int64_t count = 1;
   int material = 0;  ///< index in Scene::materials
   BodyKind kind = BodyKind::kFree;
@@ -112,6 +114,12 @@ struct OutputSettings {
   std::string packing;  ///< file in the output folder that receives the free disks at the end (packing.h)
 };
 
+/// The state file that a scene begins with.
+struct StartState {
+  std::filesystem::path path;
+  RunClock clock;  ///< at the first step: the file's, or that of a new run
+};
+
 /// A scene file as read: settings and recipes of bodies, never the bodies themselves.
 struct Scene {
   std::filesystem::path file;
@@ -119,14 +127,18 @@ struct Scene {
   std::string title;
   std::string adapter = "box2d";
   TimeSettings time;
+  std::optional<StartState> start;
   GravityLaw gravity;
   std::optional<Periodicity> periodic;
   std::vector<Material> materials;  ///< never empty; the first is the default
-  std::vector<BodySource> bodies;   ///< walls first, clusters last
+  std::vector<BodySource> bodies;   ///< those of a state file first, then walls; clusters last
   FreeIds free_ids;                 ///< for bodies without an id of their own
   SceneSolver solver;
   OutputSettings output;
   Notes notes;  ///< on what was read
+
+  /// Before the first step.
+  RunClock clock() const { return start ? start->clock : RunClock{}; }
 };
 
 }  // namespace nscdd

@@ -71,7 +71,7 @@ void Course::Scout(double seconds, const StopQuestion& interrupted, const std::f
   const auto is_early = [](const Stretch& s) { return s.first <= kRunIn + 1; };  // is reached from the scene's start
   auto next = std::find_if_not(stretches_.begin(), stretches_.end(), is_early);
   for (std::int64_t step = 1; next != stretches_.end(); ++step) {
-    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt));
+    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt, plan_.scene->clock()));
     contestant->Step(plan_.scene->time.dt);
     progress(step);
     const bool is_late = interrupted() || std::chrono::duration<double>(Clock::now() - start).count() > seconds;
@@ -88,7 +88,7 @@ void Course::Approach(const Stretch& stretch, int substeps, Contestant* contesta
   const double dt = plan_.scene->time.dt;
   if (stretch.before.step > 0) contestant->Put(stretch.before);
   for (std::int64_t step = stretch.before.step + 1; step < stretch.first; ++step) {
-    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt));
+    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt, plan_.scene->clock()));
     for (int k = 0; k < substeps; ++k) contestant->Step(dt / substeps);
   }
 }

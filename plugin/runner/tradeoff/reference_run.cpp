@@ -54,7 +54,7 @@ class Recorder {
   std::map<ContactKey, Vec2> Step(std::int64_t step, std::int64_t number, Contestant* contestant,
                                   const std::map<ContactKey, Vec2>& warm) {
     const double dt = plan_.scene->time.dt;
-    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt));
+    contestant->SetGravity(GravityAt(plan_.scene->gravity, step, dt, plan_.scene->clock()));
     StepProblem problem = contestant->Read(plan_.stepping, dt);
     contestant->Step(dt);
     const Effort effort = contestant->LastEffort();

@@ -17,7 +17,7 @@ bool RunsView::ForEachStep(const Setting& setting, bool keep_impulses, const Sto
     for (std::int64_t step = stretch.first; step < stretch.first + stretch.count; ++step) {
       if (!is_first && stop()) return false;
       is_first = false;
-      contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt));
+      contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt, plan_.scene->clock()));
       make(contestant.get());
     }
   }
