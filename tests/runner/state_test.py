@@ -267,8 +267,10 @@ class Refusals(StateTest):
         struct.pack_into("<I", newer, 8, 2)
         flipped = bytearray(good)
         flipped[len(good) // 2] ^= 1
-        for name, data, sentence in (("none", None, "is not there"), ("empty", b"", "no state file"),
-                                     ("text", b"id,x,y\n" * 100, "no state file"), ("half", good[:len(good) // 2], "were written"),
+        for name, data, sentence in (("none", None, "is not there"),
+                                     ("empty", b"", "no state file"),
+                                     ("text", b"id,x,y\n" * 100, "no state file"),
+                                     ("half", good[:len(good) // 2], "were written"),
                                      ("seal", good[:40], "were written"), ("newer", bytes(newer), "format version 2"),
                                      ("flipped", bytes(flipped), "checksum"),
                                      ("results", (folder / "results.h5").read_bytes(), "no state file")):
