@@ -202,7 +202,7 @@ class Program {
   void AddRender() {
     CLI::App* render = app_.add_subcommand("render", "Draw a saved step of a run");
     render->add_option("folder", render_.folder, "Folder of the results")->required();
-    AddWhole(render, "--step", 1, &render_.step, "Step (default: the last one saved)");
+    AddWhole(render, "--step", 0, &render_.step, "Step, 0: the initial state (default: the last one saved)");
     render->add_option("--show", show_, "grains, forces, multiplicity or overlap")->capture_default_str();
     render->add_option("-o,--output", render_.output, "Picture, .png or .svg (default: FOLDER/SHOW_STEP.png)");
     OnRoot(render, [this] {
