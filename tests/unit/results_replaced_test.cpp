@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file is replaced at once and whole.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -24,8 +25,8 @@ std::string ContentOf(const fs::path& file) {
 class ReplacedFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "replaced_file_test";
-    fs::remove_all(folder_);
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();  // tests run at the same time
+    folder_ = fs::path(testing::TempDir()) / (std::string("replaced_") + test->name() + "_" + std::to_string(::getpid()));
     fs::create_directories(folder_);
     file_ = folder_ / "file.txt";
     ReplaceText(file_, "old");
