@@ -3,6 +3,7 @@
 
 import csv
 import json
+import os
 import re
 import shutil
 import struct
@@ -12,6 +13,7 @@ from interrupted import differences
 from program import SCENES, ProgramTest, nscdd, read_csv
 
 BOX = SCENES / "rotating_box_730.toml"
+PLUGIN = os.environ.get("FAULTY_PLUGIN", "")
 
 SETTINGS = """
 [scene]
@@ -172,12 +174,31 @@ class Stages(StateTest):
         same = self.run_scene(self.started("same", 5, "first/state.h5"), out="same")
         self.assertNotEqual(self.bodies(slid), self.bodies(same))
         self.assertTrue(all(int(row["sticking"]) == 0 or int(row["active"]) > 0 for row in self.rows(slid)))
-        other = self.run_scene(self.started("other", 5, "first/state.h5"), "--subdomains", "2x2", out="other")
+
+    def test_other_subdomains(self):
+        """The impulses of contacts serve there too."""
+        self.run_scene(BOX, "--solver", "nscdd", "--subdomains", "1x2", "--steps", 10, out="first")
+        scene = self.started("other", 1, "first/state.h5", "[gravity]\nangle = 0.37\n")
+        for grid, ranks in (("2x2", 0), ("2x2", 2), ("1x1", 0), ("3x1", 3)):
+            with self.subTest(grid=grid, ranks=ranks):
+                options = ("--subdomains", grid, "--tolerance", "1e-4", "--option", "test_every=1")
+                warm = self.run_scene(scene, *options, out="warm", ranks=ranks)
+                cold = self.run_scene(scene, *options, "--cold", out="cold")
+                self.assertEqual(self.notes(warm), [])
+                self.assertEqual([row["step"] for row in self.rows(warm)], ["11"])
+                self.assertLess(1.5 * int(self.rows(warm)[0]["iterations"]), int(self.rows(cold)[0]["iterations"]))
+
+    @unittest.skipUnless(PLUGIN, "FAULTY_PLUGIN names no plugin")
+    def test_another_plugin(self):
+        """What it cannot load is said, and done without."""
+        self.run_scene(self.scene("first", 30, MIXTURE), out="first")
+        os.environ["NSCDD_FAULT"] = "old_minor"
+        self.addCleanup(os.environ.pop, "NSCDD_FAULT")
+        other = self.run_scene(self.started("other", 5, "first/state.h5"), "--plugin", PLUGIN, out="other")
         self.assertEqual(len(self.notes(other)), 1)
         self.assertIn("zero impulses", self.notes(other)[0])
-        self.assertIn("1x2 subdomains", self.notes(other)[0])
         self.assertEqual([row["step"] for row in self.rows(other)], ["31", "32", "33", "34", "35"])
-        self.assertEqual(self.rows(other)[-1]["time"], self.rows(same)[-1]["time"])
+        self.assertEqual(self.rows(other)[0]["time"], "0.3100000000000001")
 
     def test_the_clock_may_begin_anew(self):
         self.run_scene(self.scene("first", 30, TURNING, MIXTURE), out="first")

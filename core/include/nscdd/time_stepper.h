@@ -72,9 +72,9 @@ class TimeStepper {
   /// by key, interface impulses by (body, subdomain). Factorisations are not in it: none outlives a step.
   std::vector<std::byte> SaveState() const;
   /// Replaces them by the parts that the ranks of an earlier run saved at the same time, each given to one rank of this run;
-  /// the number of ranks may be another one. The bodies are in the hosts, each in one, on any rank, and there are no ghosts.
-  /// Collective; throws the same Error on all ranks, and changes nothing, if the bytes are not all those of SaveState() with
-  /// this partition.
+  /// the number of ranks may be another one. On other subdomains the cuts are placed anew, and interface impulses are
+  /// forgotten. The bodies are in the hosts, each in one, on any rank, and there are no ghosts. Collective; throws the same
+  /// Error on all ranks, and changes nothing, if the bytes are not all those of SaveState().
   void LoadState(std::span<const std::span<const std::byte>> parts);
   /// On as many ranks as before, each with its own part.
   void LoadState(std::span<const std::byte> part);

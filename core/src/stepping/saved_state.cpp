@@ -84,13 +84,9 @@ Head GetHead(ByteReader* in) {
   return head;
 }
 
-void CheckHead(const Head& head, const PartitionOptions& partition) {
-  const int nx = partition.nx, ny = partition.ny;
-  Require(head.nx == nx && head.ny == ny,
-          fmt::format("the saved state is one of {}x{} subdomains, this solver has {}x{}; continue with the same partition",
-                      head.nx, head.ny, nx, ny));
+void CheckHead(const Head& head) {
   const StepperState& s = head.state;
-  const bool is_cut = s.grid.nx() == nx && s.grid.ny() == ny;
+  const bool is_cut = s.grid.nx() == head.nx && s.grid.ny() == head.ny;
   Require(head.ranks > 0 && s.step >= 0 && s.step < kMostSteps && std::isfinite(s.time) && std::isfinite(s.alert) &&
               std::isfinite(s.cached_dt) && s.cached_dt >= 0.0 && (is_cut || s.step == 0),
           "the saved state is damaged: its counters make no sense; take another one");
@@ -107,11 +103,10 @@ void CheckImpulses(const ImpulseCache& cache) {
 }
 
 /// The head of one part; adds its rank and impulses to the others.
-Head ReadPart(std::span<const std::byte> bytes, const PartitionOptions& partition, std::vector<double>* ranks,
-              ImpulseCache* cache) {
+Head ReadPart(std::span<const std::byte> bytes, std::vector<double>* ranks, ImpulseCache* cache) {
   ByteReader in(bytes);
   const Head head = GetHead(&in);
-  CheckHead(head, partition);
+  CheckHead(head);
   ranks->push_back(static_cast<double>(in.Get<std::int64_t>()));
   GetImpulses(&in, cache);
   Require(in.empty(), "the saved state is longer than it says it is");
@@ -157,7 +152,7 @@ StepperState ReadStates(std::span<const std::span<const std::byte>> parts, const
   std::vector<Head> heads;
   std::vector<double> ranks;
   RunTogether(communicator, [&] {
-    for (const auto part : parts) heads.push_back(ReadPart(part, partition, &ranks, cache));
+    for (const auto part : parts) heads.push_back(ReadPart(part, &ranks, cache));
   });
   // Parts may be many or none on a rank (another number of ranks goes on): all heads must say the same.
   const Head common = AgreeOnHead(heads, communicator);
@@ -171,6 +166,7 @@ StepperState ReadStates(std::span<const std::span<const std::byte>> parts, const
   Require(state.step == 0 || state.grid.HasPeriod(platform.period_origin, platform.period),
           fmt::format("the saved state is of a world with another period than {} m from {} m (0: none)", platform.period,
                       platform.period_origin));
+  if (common.nx != partition.nx || common.ny != partition.ny) cache->interfaces.clear();
   cache->Sort();
   return state;
 }

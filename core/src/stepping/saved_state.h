@@ -28,8 +28,9 @@ std::vector<std::byte> WriteState(const StepperState& state, const ImpulseCache&
                                   const Communicator& communicator);
 
 /// Reads the parts that the ranks of one run wrote at the same time, each given to one rank of the present run, and adds their
-/// impulses to `cache` (empty). Collective. Throws Error on all ranks when the bytes are not those of WriteState(), of another
-/// partition or period, of different moments, or when one of the parts is missing or there twice.
+/// impulses to `cache` (empty); those of interfaces only if the partition is the same, and the cuts are those that were saved.
+/// Collective. Throws Error on all ranks when the bytes are not those of WriteState(), of another period, of different moments,
+/// or when one of the parts is missing or there twice.
 StepperState ReadStates(std::span<const std::span<const std::byte>> parts, const PartitionOptions& partition,
                         const AdapterDescription& platform, Communicator* communicator, ImpulseCache* cache);
 

@@ -99,7 +99,8 @@ class TimeStepper::Impl {
     if (kept_.step == 0) grid = GridOver({}, partition_, description_);  // its period
     now_.detection = Drifted(bodies(), grid, half);
     const DomainExtent extent = ReduceExtent(bodies(), now_.detection, migration_.newcomers(), dt, communicator_);
-    if (kept_.step % partition_.repartition_every == 0) grid = GridOver(extent, partition_, description_);
+    const bool is_of_others = grid.nx() != partition_.nx || grid.ny() != partition_.ny;  // of a state that was loaded
+    if (is_of_others || kept_.step % partition_.repartition_every == 0) grid = GridOver(extent, partition_, description_);
     if (extent.newcomers) CheckIdsAreUnique(bodies().id, communicator_);
     migration_.Move(now_.detection, grid, blocks_, {extent.largest_radius, alert()}, &cache_);
     is_cache_scattered_ = false;
