@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -38,6 +39,13 @@ std::string CheckFile(const std::string& path) {
   return std::filesystem::absolute(path, code).string();
 }
 
+/// Bytes of nscdd_plugin that an ABI minor prescribes.
+std::uint64_t SizeOfMinor(std::uint32_t minor) {
+  if (minor < 1) return offsetof(nscdd_plugin, load_states);
+  if (minor < 3) return offsetof(nscdd_plugin, check_option);
+  return sizeof(nscdd_plugin);
+}
+
 void CheckHeader(const std::string& path, const nscdd_header& header, const HostAbi& abi) {
   if (header.abi_major != abi.major) {
     Refuse(path,
@@ -53,10 +61,11 @@ void CheckHeader(const std::string& path, const nscdd_header& header, const Host
                              "sizeof(nscdd_plugin) and rebuild it",
                              header.struct_size, abi.major, abi.minor, abi.struct_size));
   }
-  if (header.abi_minor >= 1 && header.struct_size < sizeof(nscdd_plugin)) {
+  const std::uint64_t own = SizeOfMinor(header.abi_minor);
+  if (header.struct_size < own) {
     Refuse(path, fmt::format("its nscdd_plugin has {} bytes, its ABI {}.{} prescribes at least {}; set header.struct_size = "
                              "sizeof(nscdd_plugin) and rebuild it",
-                             header.struct_size, header.abi_major, header.abi_minor, sizeof(nscdd_plugin)));
+                             header.struct_size, header.abi_major, header.abi_minor, own));
   }
 }
 
@@ -92,6 +101,7 @@ void CheckFunctions(const std::string& path, const nscdd_plugin& p) {
   need(p.load_state != nullptr, "load_state");
   need(p.last_error != nullptr, "last_error");
   if (p.header.abi_minor >= 1) need(p.load_states != nullptr, "load_states");
+  if (p.header.abi_minor >= 3) need(p.check_option != nullptr, "check_option");
 }
 
 void CheckOptions(const std::string& path, const nscdd_solver_info& solver) {
@@ -160,6 +170,12 @@ const nscdd_solver_info* PluginLibrary::FindSolver(const std::string& name) cons
     if (name == plugin_->solvers[i].name) return &plugin_->solvers[i];
   }
   return nullptr;
+}
+
+const nscdd_option* FindOption(const nscdd_solver_info& solver, std::string_view name) {
+  const nscdd_option* end = solver.options + solver.option_count;
+  const nscdd_option* at = std::find_if(solver.options, end, [&](const nscdd_option& o) { return name == o.name; });
+  return at == end ? nullptr : at;
 }
 
 void PluginLibrary::RequireLoadStates() const {

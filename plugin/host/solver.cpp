@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "layout.h"
 #include "nscdd/error.h"
@@ -13,64 +14,27 @@
 namespace nscdd {
 namespace {
 
-constexpr std::size_t kSentenceSize = 4096;
+using Sentence = std::array<char, 4096>;
 
-SolveReport SolvePart(const nscdd_report& r) {
-  SolveReport solve;
-  solve.status = static_cast<SolveStatus>(r.status);
-  if (r.reason != nullptr) solve.reason = r.reason;
-  solve.residuals = {r.nat, r.nat_max, r.quad, r.maxm, r.qm16, r.interface_jump, r.relative_jump, {}};
-  solve.residuals.worst.body_a = r.worst_body_a;
-  solve.residuals.worst.body_b = r.worst_body_b;
-  solve.iterations = static_cast<int>(r.iterations);
-  solve.sweeps = r.sweeps;
-  solve.contacts = r.contacts;
-  solve.active = r.active;
-  solve.sticking = r.sticking;
-  solve.subdomains = r.subdomains;
-  solve.empty_subdomains = r.empty_subdomains;
-  solve.interface_bodies = r.interface_bodies;
-  solve.interface_copies = r.interface_copies;
-  solve.max_multiplicity = static_cast<int>(r.max_multiplicity);
-  solve.unknowns_per_contact = static_cast<int>(r.unknowns_per_contact);
-  solve.unknowns_per_body = static_cast<int>(r.unknowns_per_body);
-  solve.bytes_per_contact = static_cast<int>(r.bytes_per_contact);
-  solve.bytes_per_body = static_cast<int>(r.bytes_per_body);
-  solve.painleve_contacts = static_cast<int>(r.painleve_contacts);
-  solve.interface_updates = r.interface_updates;
-  solve.cg_iterations = r.cg_iterations;
-  solve.cg_failures = r.cg_failures;
-  solve.analyses = r.analyses;
-  solve.factorisations = r.factorisations;
-  solve.seconds_interface = r.seconds_interface;
-  solve.extrapolations = r.extrapolations;
-  solve.acceleration_restarts = r.acceleration_restarts;
-  return solve;
+[[noreturn]] void ThrowSentence(const PluginLibrary& library, const char* function, std::int32_t result, Sentence* sentence) {
+  sentence->back() = '\0';
+  if (sentence->front() != '\0') throw Error(sentence->data());
+  throw Error(fmt::format("plugin '{}': {} failed without a sentence (result {})", library.path(), function, result));
 }
 
-StepReport Translate(const nscdd_report& r) {
+StepReport Translate(const nscdd_report& source) {
   StepReport report;
-  report.solve = SolvePart(r);
-  report.step = r.step;
-  report.time = r.time;
-  report.bodies = r.bodies;
-  report.mean_interpenetration = r.mean_interpenetration;
-  report.max_interpenetration = r.max_interpenetration;
-  report.mean_radius = r.mean_radius;
-  report.kinetic_energy = r.kinetic_energy;
-  report.momentum_x = r.momentum_x;
-  report.momentum_y = r.momentum_y;
-  report.injected_energy = r.injected_energy;
-  report.max_drift = r.max_drift;
-  report.alert_distance = r.alert_distance;
-  report.migrated_bodies = r.migrated_bodies;
-  report.messages = r.messages;
-  report.message_bytes = r.message_bytes;
-  report.collectives = r.collectives;
-  report.seconds_detect = r.seconds_detect;
-  report.seconds_solve = r.seconds_solve;
-  report.seconds_communicate = r.seconds_communicate;
-  report.seconds_total = r.seconds_total;
+  const auto copy = [](const Figure&, auto& to, const auto& from) {
+    using To = std::decay_t<decltype(to)>;
+    if constexpr (std::is_same_v<To, std::string>) {
+      if (from != nullptr) to = from;
+    } else {
+      to = static_cast<To>(from);
+    }
+  };
+  ForEachFigure(copy, report, source);
+  const bool is_known = source.status >= 0 && static_cast<std::size_t>(source.status) < kStatuses.size();
+  if (!is_known) report.solve.status = SolveStatus::kDiverged;  // so that it is not taken for success
   return report;
 }
 
@@ -151,15 +115,24 @@ Solver::Solver(std::shared_ptr<const PluginLibrary> library, const SolverArgumen
   create.option_count = names.size();
   create.option_names = names.data();
   create.option_values = values.data();
-  std::array<char, kSentenceSize> sentence{};
+  Sentence sentence{};
   nscdd_solver* handle = nullptr;
   const std::int32_t result = library_->plugin().create(&create, &handle, sentence.data(), sentence.size());
   handle_.reset(handle);
   if (result == NSCDD_OK && handle != nullptr) return;
-  sentence.back() = '\0';
-  throw Error(sentence[0] != '\0'
-                  ? std::string(sentence.data())
-                  : fmt::format("plugin '{}': create failed without a sentence (result {})", library_->path(), result));
+  ThrowSentence(*library_, "create", result, &sentence);
+}
+
+void CheckOption(const std::shared_ptr<const PluginLibrary>& library, const std::string& solver, const std::string& option,
+                 const std::string& value) {
+  if (library->plugin().header.abi_minor < 3) {
+    const Solver asked(library, {.solver = solver, .options = {{option, value}}, .host = nullptr, .communicator = {}});
+    return;
+  }
+  Sentence sentence{};
+  const std::int32_t result =
+      library->plugin().check_option(solver.c_str(), option.c_str(), value.c_str(), sentence.data(), sentence.size());
+  if (result != NSCDD_OK) ThrowSentence(*library, "check_option", result, &sentence);
 }
 
 void Solver::Check(const char* function, std::int32_t result) const {

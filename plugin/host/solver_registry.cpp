@@ -39,4 +39,8 @@ Solver SolverRegistry::Create(const SolverArguments& arguments) const {
   return Solver(Find(arguments.solver).module, arguments);
 }
 
+void SolverRegistry::CheckOption(const std::string& solver, const std::string& option, const std::string& value) const {
+  nscdd::CheckOption(Find(solver).module, solver, option, value);
+}
+
 }  // namespace nscdd

@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 #define NSCDD_ABI_MAJOR 1u
-#define NSCDD_ABI_MINOR 2u /* 1: load_states; 2: NSCDD_FIXED */
+#define NSCDD_ABI_MINOR 3u /* 1: load_states; 2: NSCDD_FIXED; 3: check_option, reports that grow */
 #define NSCDD_ENTRY_SYMBOL "nscdd_plugin_entry"
 
 typedef enum nscdd_result {
@@ -183,7 +183,7 @@ typedef enum nscdd_status {
                    * is of a lower minor, NSCDD_ITERATION_LIMIT stands for it */
 } nscdd_status;
 
-/* Of the last step or solve. Meaning of the numbers: SolveReport and StepReport in nscdd/report.h. */
+/* Of the last step or solve. Units and meanings: nscdd/figures.h. Members behind the header's struct_size are not written. */
 typedef struct nscdd_report {
   nscdd_header header;
   int32_t status; /* nscdd_status */
@@ -240,7 +240,7 @@ typedef struct nscdd_report {
   int64_t factorisations;
   double seconds_interface;
   int64_t extrapolations;
-  int64_t acceleration_restarts;
+  int64_t acceleration_restarts; /* the last one of minors 0 to 2 */
 } nscdd_report;
 
 /* A column of a table: `count` numbers of 8 bytes each, real (double) or integer (int64_t). */
@@ -303,6 +303,10 @@ typedef struct nscdd_plugin {
    * given to one rank; `count` of them here, maybe none. Bodies may be in the host of any rank, each in one. Nothing changes on
    * failure. */
   int32_t (*load_states)(nscdd_solver* solver, uint64_t count, const void* const* parts, const uint64_t* sizes);
+
+  /* Since minor 3. Whether `solver`, a name out of `solvers`, takes this value of this option beside defaults of the others:
+   * what create would say, without a handle. The sentence goes into `error` as in create. Not collective. */
+  int32_t (*check_option)(const char* solver, const char* name, const char* value, char* error, uint64_t error_size);
 } nscdd_plugin;
 
 typedef const nscdd_plugin* (*nscdd_plugin_entry_function)(void);

@@ -20,65 +20,6 @@ void Copy(const TableView& table, const char* name, std::vector<T>* column) {
 
 }  // namespace
 
-StepRow MakeStepRow(const StepReport& s) {
-  const SolveReport& solve = s.solve;
-  const Residuals& r = solve.residuals;
-  StepRow row;
-  row.step = s.step;
-  row.time = s.time;
-  row.contacts = solve.contacts;
-  row.active = solve.active;
-  row.iterations = solve.iterations;
-  row.status = NameOf(solve.status);
-  row.reason = solve.reason;
-  row.nat = r.nat;
-  row.nat_max = r.nat_max;
-  row.qm16 = r.qm16;
-  row.quad = r.quad;
-  row.maxm = r.maxm;
-  row.interface_jump = r.interface_jump;
-  row.relative_jump = r.relative_jump;
-  row.mean_interpenetration = s.mean_interpenetration;
-  row.max_interpenetration = s.max_interpenetration;
-  row.kinetic_energy = s.kinetic_energy;
-  row.momentum_x = s.momentum_x;
-  row.momentum_y = s.momentum_y;
-  row.seconds_detect = s.seconds_detect;
-  row.seconds_solve = s.seconds_solve;
-  row.seconds_communicate = s.seconds_communicate;
-  row.seconds_total = s.seconds_total;
-  row.sweeps = solve.sweeps;
-  row.sticking = solve.sticking;
-  row.bodies = s.bodies;
-  row.interface_bodies = solve.interface_bodies;
-  row.interface_copies = solve.interface_copies;
-  row.max_multiplicity = solve.max_multiplicity;
-  row.empty_subdomains = solve.empty_subdomains;
-  row.painleve_contacts = solve.painleve_contacts;
-  row.interface_updates = solve.interface_updates;
-  row.cg_iterations = solve.cg_iterations;
-  row.cg_failures = solve.cg_failures;
-  row.factorisations = solve.factorisations;
-  row.seconds_interface = solve.seconds_interface;
-  row.injected_energy = s.injected_energy;
-  row.max_drift = s.max_drift;
-  row.alert_distance = s.alert_distance;
-  row.mean_radius = s.mean_radius;
-  if (solve.contacts > 0) {
-    row.worst_body_a = r.worst.body_a;
-    row.worst_body_b = r.worst.body_b;
-  }
-  row.unknowns_per_contact = solve.unknowns_per_contact;
-  row.unknowns_per_body = solve.unknowns_per_body;
-  row.bytes_per_contact = solve.bytes_per_contact;
-  row.bytes_per_body = solve.bytes_per_body;
-  row.migrated_bodies = s.migrated_bodies;
-  row.messages = s.messages;
-  row.message_bytes = s.message_bytes;
-  row.collectives = s.collectives;
-  return row;
-}
-
 GrainTable MakeGrainTable(const Solver& solver) {
   const TableView t = solver.Table("bodies");
   GrainTable g;

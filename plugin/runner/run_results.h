@@ -7,12 +7,9 @@
 #include "nscdd/platform_adapter.h"
 #include "results/rank_group.h"
 #include "results/result_tables.h"
-#include "results/step_row.h"
 #include "scene/body_stream.h"
 
 namespace nscdd {
-
-StepRow MakeStepRow(const StepReport& report);
 
 /// This rank's bodies and contacts after the last step, of length `dt` [s], from the plugin's tables.
 GrainTable MakeGrainTable(const Solver& solver);

@@ -11,12 +11,6 @@
 namespace nscdd {
 namespace {
 
-const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::string& name) {
-  const auto* end = solver.options + solver.option_count;
-  const auto* at = std::find_if(solver.options, end, [&](const nscdd_option& o) { return name == o.name; });
-  return at == end ? nullptr : at;
-}
-
 /// Solvers that have an option, for the mend in a sentence.
 std::string SolversWith(const SolverRegistry& registry, const std::string& option) {
   std::string names;
@@ -40,11 +34,11 @@ std::string SolversWith(const SolverRegistry& registry, const std::string& optio
       fmt::format("{}unknown option '{}' of solver '{}'; {}", where, name, solver.name, Suggestion(name, known, "options")));
 }
 
-/// Lets the solver itself judge one option.
+/// Lets the solver itself judge one option; `where` comes before its sentence.
 void CheckValue(const SolverRegistry& registry, const std::string& solver, const std::string& where, const std::string& name,
                 const std::string& value) {
   try {
-    registry.Create({solver, {{name, value}}, nullptr, {}});
+    registry.CheckOption(solver, name, value);
   } catch (const Error& e) {
     throw Error(where + e.what());
   }
@@ -80,7 +74,11 @@ SolverChoice ChooseSolver(const Scene& scene, const SolverRequest& request, cons
     throw Error(from_scene ? fmt::format("{}:{}: key 'solver.name': {}", file, scene.solver.line, e.what())
                            : fmt::format("--solver: {}", e.what()));
   }
-  choice.options.emplace_back("theta", fmt::format("{}", scene.time.theta));
+  const std::string theta = fmt::format("{}", scene.time.theta);
+  CheckValue(registry, choice.name,
+             scene.time.theta_line > 0 ? fmt::format("{}:{}: key 'time.theta': ", file, scene.time.theta_line) : file + ": ",
+             "theta", theta);
+  choice.options.emplace_back("theta", theta);
   for (const SolverOption& option : scene.solver.options) {
     const std::string where = fmt::format("{}:{}: key 'solver.{}': ", file, option.line, option.key);
     if (FindOption(*solver, option.key) == nullptr) {
@@ -122,6 +120,25 @@ std::string OptionValue(const SolverChoice& choice, const SolverRegistry& regist
   }
   const nscdd_option* option = FindOption(*registry.Find(choice.name).info, name);
   return option ? option->default_value : "";
+}
+
+std::optional<double> OptionNumber(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name) {
+  const std::string text = OptionValue(choice, registry, name);
+  if (text.empty()) return std::nullopt;
+  return std::stod(text);  // the solver has accepted it
+}
+
+SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& registry) {
+  SteppingOptions o;
+  const auto read = [&](const char* name, double* number) { *number = OptionNumber(choice, registry, name).value_or(*number); };
+  read("theta", &o.theta);
+  read("alert_distance", &o.alert_distance);
+  read("feedback_beta", &o.feedback_beta);
+  read("feedback_slop", &o.feedback_slop);
+  read("feedback_cap", &o.feedback_cap);
+  const std::string law = OptionValue(choice, registry, "normal_law");
+  o.normal_law = law == "strict" ? NormalLaw::kStrict : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kGap;
+  return o;
 }
 
 }  // namespace nscdd

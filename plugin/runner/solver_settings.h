@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "nscdd/host/solver_registry.h"
+#include "nscdd/options.h"
 #include "scene/scene.h"
 
 namespace nscdd {
@@ -37,7 +39,12 @@ const nscdd_solver_info& RequireSolver(const SolverRegistry& registry, const std
 bool HasOption(const SolverRegistry& registry, const std::string& solver, const std::string& option);
 bool AnySolverHas(const SolverRegistry& registry, const std::string& option);
 
-/// Value of an option: the chosen one, or its default.
+/// Value of an option: the chosen one, or its default; "" if the solver has none of that name.
 std::string OptionValue(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name);
+/// The same of a number.
+std::optional<double> OptionNumber(const SolverChoice& choice, const SolverRegistry& registry, const std::string& name);
+
+/// Scheme and contact law of the choice, as far as its solver knows these options, else the core's defaults.
+SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& registry);
 
 }  // namespace nscdd

@@ -9,8 +9,9 @@
 
 #include "guard.h"
 #include "nscdd/callback/abi_check.h"
+#include "report_copy.h"
 #include "solver_handle.h"
-#include "solver_table.h"
+#include "solver_infos.h"
 
 struct nscdd_solver {
   std::unique_ptr<nscdd::SolverHandle> handle;
@@ -23,10 +24,10 @@ namespace {
 
 // Null pointers and headers are faults of the calling code, hence BadCall.
 template <class Structure>
-void Need(const Structure* structure, const char* name) {
+void Need(const Structure* structure, const char* name, std::uint64_t size = sizeof(Structure)) {
   if (structure == nullptr) throw BadCall(fmt::format("the pointer to {} is null", name));
   try {
-    CheckAbiHeader(structure->header, sizeof(Structure), name);
+    CheckAbiHeader(structure->header, size, name);
   } catch (const Error& e) {
     throw BadCall(e.what());
   }
@@ -44,6 +45,14 @@ std::int32_t WithHandle(nscdd_solver* solver, const char* name, Function&& funct
   return result;
 }
 
+/// Cut to the buffer, always terminated.
+void PutSentence(const std::string& sentence, char* error, std::uint64_t error_size) {
+  if (error == nullptr || error_size == 0) return;
+  const std::size_t length = std::min<std::size_t>(sentence.size(), static_cast<std::size_t>(error_size) - 1);
+  std::memcpy(error, sentence.data(), length);
+  error[length] = '\0';
+}
+
 std::int32_t Create(const nscdd_create_arguments* arguments, nscdd_solver** solver, char* error, std::uint64_t error_size) {
   std::string sentence;
   if (solver != nullptr) *solver = nullptr;
@@ -54,11 +63,19 @@ std::int32_t Create(const nscdd_create_arguments* arguments, nscdd_solver** solv
     created->handle = std::make_unique<SolverHandle>(*arguments);
     *solver = created.release();
   });
-  if (error != nullptr && error_size > 0) {
-    const std::size_t length = std::min<std::size_t>(sentence.size(), static_cast<std::size_t>(error_size) - 1);
-    std::memcpy(error, sentence.data(), length);
-    error[length] = '\0';
-  }
+  PutSentence(sentence, error, error_size);
+  return result;
+}
+
+std::int32_t CheckOption(const char* solver, const char* name, const char* value, char* error, std::uint64_t error_size) {
+  std::string sentence;
+  const std::int32_t result = Guard(&sentence, [&] {
+    if (solver == nullptr || name == nullptr || value == nullptr) {
+      throw BadCall("check_option: the name of the solver, the name of the option or its value is null");
+    }
+    MakeSettings(FindSolver(solver), {{name, value}});
+  });
+  PutSentence(sentence, error, error_size);
   return result;
 }
 
@@ -78,7 +95,7 @@ std::int32_t Solve(nscdd_solver* solver, const nscdd_problem* problem, nscdd_sol
 
 std::int32_t Report(nscdd_solver* solver, nscdd_report* report) {
   return WithHandle(solver, "report", [&](SolverHandle& handle) {
-    Need(report, "nscdd_report");
+    Need(report, "nscdd_report", report == nullptr ? 0 : ReportSize(report->header.abi_minor));
     handle.Report(report);
   });
 }
@@ -140,6 +157,7 @@ nscdd_plugin MakeDescription() {
   plugin.load_state = LoadState;
   plugin.last_error = LastError;
   plugin.load_states = LoadStates;
+  plugin.check_option = CheckOption;
   return plugin;
 }
 

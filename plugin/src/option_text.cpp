@@ -2,41 +2,37 @@
 #include "option_text.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "nscdd/error.h"
 
 namespace nscdd {
 namespace {
 
-constexpr int kMostCellsPerSide = 100000;
-constexpr long kMostCells = 10'000'000;
-
-[[noreturn]] void Refuse(std::string_view option, std::string_view text, const std::string& must_be) {
-  throw Error(fmt::format("option '{}' is '{}', must be {}", option, text.substr(0, 64), must_be));
-}
-
 template <class Number>
-bool ParseWhole(std::string_view text, Number* number) {
+bool Read(std::string_view text, const Option&, Number* number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *number);
   return error == std::errc() && end == text.data() + text.size();
 }
 
-std::string Describe(const char* kind, const Range& range) {
-  const bool below = range.least > -1e308, above = range.most < 1e308;
-  std::string text = kind;
-  if (below) text += fmt::format(" {} {}", range.least_excluded ? ">" : ">=", range.least);
-  if (above) text += fmt::format("{} <= {}", below ? " and" : "", range.most);
-  return text;
+bool Read(std::string_view text, const Option&, bool* value) {
+  *value = text == "true";
+  return *value || text == "false";
 }
 
-bool Inside(double value, const Range& range) {
-  return (range.least_excluded ? value > range.least : value >= range.least) && value <= range.most;
+bool Read(std::string_view text, const Option& option, WordIndex* word) {
+  word->index = static_cast<std::size_t>(std::find(option.words.begin(), option.words.end(), text) - option.words.begin());
+  return word->index < option.words.size();
+}
+
+bool Read(std::string_view text, const Option&, GridSize* grid) {
+  const std::optional<GridSize> parsed = ParseGrid(text);
+  if (parsed) *grid = *parsed;
+  return parsed.has_value();
 }
 
 // Levenshtein's distance, one row at a time.
@@ -57,46 +53,12 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-double ParseReal(std::string_view option, std::string_view text, const Range& range) {
-  double value = 0.0;
-  if (!ParseWhole(text, &value) || !std::isfinite(value) || !Inside(value, range)) {
-    Refuse(option, text, Describe("a finite number", range));
-  }
-  return value;
-}
-
-int ParseInteger(std::string_view option, std::string_view text, const Range& range) {
-  int value = 0;
-  if (!ParseWhole(text, &value) || !Inside(value, range)) Refuse(option, text, Describe("a whole number", range));
-  return value;
-}
-
-bool ParseBool(std::string_view option, std::string_view text) {
-  if (text == "true") return true;
-  if (text == "false") return false;
-  Refuse(option, text, "true or false");
-}
-
-void ParseGrid(std::string_view option, std::string_view text, PartitionOptions* grid) {
-  const std::size_t cross = text.find('x');
-  int nx = 0, ny = 0;
-  const bool two =
-      cross != std::string_view::npos && ParseWhole(text.substr(0, cross), &nx) && ParseWhole(text.substr(cross + 1), &ny);
-  if (!two || nx < 1 || ny < 1 || nx > kMostCellsPerSide || ny > kMostCellsPerSide || static_cast<long>(nx) * ny > kMostCells) {
-    Refuse(option, text,
-           fmt::format("a grid such as 4x2 with 1 to {} cells per side and at most {} in all", kMostCellsPerSide, kMostCells));
-  }
-  grid->nx = nx;
-  grid->ny = ny;
-}
-
-std::size_t ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string>& choices) {
-  const auto found = std::find(choices.begin(), choices.end(), text);
-  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  const std::string nearest = Nearest(text, choices);
-  Refuse(option, text,
-         fmt::format("one of {}{}", fmt::join(choices, ", "),
-                     nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
+OptionValue ParseOption(const Option& option, std::string_view text, OptionValue value) {
+  const bool is_read = std::visit([&](auto& target) { return Read(text, option, &target); }, value);
+  if (is_read && Allows(option, value)) return value;
+  const std::string nearest = Nearest(text, option.words);
+  throw Error(fmt::format("option '{}' is '{}', must be {}{}", option.name, text.substr(0, 64), MustBe(option, value),
+                          nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
 }
 
 std::string Nearest(std::string_view text, const std::vector<std::string>& names) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_copy.h"
 
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
 namespace nscdd {
 namespace {
 
@@ -10,71 +14,44 @@ static_assert(static_cast<int>(SolveStatus::kStalled) == NSCDD_STALLED);
 static_assert(static_cast<int>(SolveStatus::kDiverged) == NSCDD_DIVERGED);
 static_assert(static_cast<int>(SolveStatus::kIncomplete) == NSCDD_INCOMPLETE);
 static_assert(static_cast<int>(SolveStatus::kFixed) == NSCDD_FIXED);
+static_assert(kStatuses.size() == 6);
+
+// The layout that hosts of minors 0 to 2 were compiled with.
+static_assert(offsetof(nscdd_report, status) == 16 && offsetof(nscdd_report, reason) == 24);
+static_assert(offsetof(nscdd_report, nat) == 96 && offsetof(nscdd_report, worst_body_b) == 160);
+static_assert(offsetof(nscdd_report, mean_interpenetration) == 248 && offsetof(nscdd_report, seconds_total) == 376);
+static_assert(offsetof(nscdd_report, acceleration_restarts) == 440);
+constexpr std::uint64_t kSizeOfMinor0 = 448;
 
 constexpr std::uint32_t kMinorOfFixed = 2;
+constexpr std::uint32_t kMinorOfGrowth = 3;
 
-void CopySolve(const SolveReport& solve, nscdd_report* target) {
-  const bool is_known = solve.status != SolveStatus::kFixed || target->header.abi_minor >= kMinorOfFixed;
-  target->status = is_known ? static_cast<std::int32_t>(solve.status) : NSCDD_ITERATION_LIMIT;
-  target->reason = solve.reason.c_str();
-  target->contacts = solve.contacts;
-  target->active = solve.active;
-  target->sticking = solve.sticking;
-  target->iterations = solve.iterations;
-  target->sweeps = solve.sweeps;
-  target->nat = solve.residuals.nat;
-  target->nat_max = solve.residuals.nat_max;
-  target->quad = solve.residuals.quad;
-  target->maxm = solve.residuals.maxm;
-  target->qm16 = solve.residuals.qm16;
-  target->interface_jump = solve.residuals.interface_jump;
-  target->relative_jump = solve.residuals.relative_jump;
-  target->worst_body_a = solve.residuals.worst.body_a;
-  target->worst_body_b = solve.residuals.worst.body_b;
-  target->subdomains = solve.subdomains;
-  target->empty_subdomains = solve.empty_subdomains;
-  target->interface_bodies = solve.interface_bodies;
-  target->interface_copies = solve.interface_copies;
-  target->max_multiplicity = solve.max_multiplicity;
-  target->unknowns_per_contact = solve.unknowns_per_contact;
-  target->unknowns_per_body = solve.unknowns_per_body;
-  target->bytes_per_contact = solve.bytes_per_contact;
-  target->bytes_per_body = solve.bytes_per_body;
-  target->painleve_contacts = solve.painleve_contacts;
-  target->interface_updates = solve.interface_updates;
-  target->cg_iterations = solve.cg_iterations;
-  target->cg_failures = solve.cg_failures;
-  target->analyses = solve.analyses;
-  target->factorisations = solve.factorisations;
-  target->seconds_interface = solve.seconds_interface;
-  target->extrapolations = solve.extrapolations;
-  target->acceleration_restarts = solve.acceleration_restarts;
-}
+#define NSCDD_COUNT(type, name, kind, unit, help) +1
+constexpr std::size_t kFigures = NSCDD_FIGURES(NSCDD_COUNT, NSCDD_COUNT, NSCDD_COUNT);
+#undef NSCDD_COUNT
+static_assert(sizeof(nscdd_report) == sizeof(nscdd_header) + 8 * kFigures,
+              "nscdd_report has a member of 8 bytes for each line of figures.h, and no other");
 
 }  // namespace
 
+std::uint64_t ReportSize(std::uint32_t abi_minor) { return abi_minor < kMinorOfGrowth ? kSizeOfMinor0 : sizeof(nscdd_report); }
+
 void CopyReport(const StepReport& report, nscdd_report* target) {
-  CopySolve(report.solve, target);
-  target->step = report.step;
-  target->time = report.time;
-  target->bodies = report.bodies;
-  target->mean_interpenetration = report.mean_interpenetration;
-  target->max_interpenetration = report.max_interpenetration;
-  target->mean_radius = report.mean_radius;
-  target->kinetic_energy = report.kinetic_energy;
-  target->momentum_x = report.momentum_x;
-  target->momentum_y = report.momentum_y;
-  target->injected_energy = report.injected_energy;
-  target->max_drift = report.max_drift;
-  target->alert_distance = report.alert_distance;
-  target->migrated_bodies = report.migrated_bodies;
-  target->messages = report.messages;
-  target->message_bytes = report.message_bytes;
-  target->collectives = report.collectives;
-  target->seconds_detect = report.seconds_detect;
-  target->seconds_solve = report.seconds_solve;
-  target->seconds_communicate = report.seconds_communicate;
-  target->seconds_total = report.seconds_total;
+  const char* end = reinterpret_cast<const char*>(target) + target->header.struct_size;
+  const auto copy = [&](const Figure&, const auto& from, auto& to) {
+    using To = std::decay_t<decltype(to)>;
+    if (reinterpret_cast<const char*>(&to + 1) > end) return;
+    if constexpr (std::same_as<To, const char*>) {
+      to = from.c_str();
+    } else {
+      static_assert(std::is_floating_point_v<To> == std::is_floating_point_v<std::decay_t<decltype(from)>>);
+      to = static_cast<To>(from);
+    }
+  };
+  ForEachFigure(copy, report, *target);
+  if (report.solve.status == SolveStatus::kFixed && target->header.abi_minor < kMinorOfFixed) {
+    target->status = NSCDD_ITERATION_LIMIT;
+  }
 }
 
 }  // namespace nscdd

@@ -6,7 +6,11 @@
 
 namespace nscdd {
 
-/// `report` as the C interface shows it; `reason` points into `report`, the header is left alone.
+/// Bytes of nscdd_report that an ABI minor prescribes.
+std::uint64_t ReportSize(std::uint32_t abi_minor);
+
+/// `report` as the C interface shows it, as far as target->header.struct_size goes; `reason` points into `report`, the header
+/// is left alone.
 void CopyReport(const StepReport& report, nscdd_report* target);
 
 }  // namespace nscdd

@@ -69,7 +69,8 @@ std::string WishOf(const nscdd_create_arguments& arguments, const SolverSettings
     wish += fmt::format("host = '{}', period {} m from {} m, clusters {}, prescribed_motion {}\n", d.name, d.period,
                         d.period_origin, d.clusters, d.prescribed_motion);
   }
-  for (const Option& option : solver.options) wish += fmt::format("{} = {}\n", option.name, option.print(settings));
+  for (const Option& option : solver.options)
+    wish += fmt::format("{} = {}\n", option.name, TextOf(option, option.get(settings)));
   return wish;
 }
 
@@ -140,9 +141,7 @@ void SolverHandle::Solve(const nscdd_problem& problem, nscdd_solution* solution)
 
 void SolverHandle::Report(nscdd_report* report) const {
   if (last_ == Last::kNothing) throw BadCall("report: there is no finished step or solve to report; call step or solve first");
-  nscdd_report copy = *report;
-  CopyReport(report_, &copy);
-  *report = copy;
+  CopyReport(report_, report);
 }
 
 void SolverHandle::Table(std::string_view name, nscdd_table* table) {

@@ -14,7 +14,7 @@
 #include "nscdd/time_stepper.h"
 #include "nscdd_plugin.h"
 #include "result_table.h"
-#include "solver_table.h"
+#include "solver_infos.h"
 
 namespace nscdd {
 

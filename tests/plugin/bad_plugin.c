@@ -38,6 +38,11 @@ static int32_t LoadState(nscdd_solver* s, const void* b, uint64_t n) { return (v
 static int32_t LoadStates(nscdd_solver* s, uint64_t c, const void* const* p, const uint64_t* n) {
   return (void)s, (void)c, (void)p, (void)n, NSCDD_FAILED;
 }
+static int32_t CheckOption(const char* s, const char* n, const char* v, char* error, uint64_t size) {
+  (void)s, (void)n, (void)v;
+  if (size > 0) error[0] = '\0';
+  return NSCDD_FAILED;
+}
 static const char* LastError(nscdd_solver* s) { return (void)s, "nothing is implemented"; }
 
 static const nscdd_option options[] = {
@@ -112,7 +117,8 @@ static const nscdd_plugin plugin = {
     SaveState,
     LoadState,
     LastError,
-    LoadStates};
+    LoadStates,
+    CheckOption};
 
 #endif /* FAULT_NULL_ENTRY */
 

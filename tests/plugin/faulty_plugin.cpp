@@ -85,6 +85,7 @@ std::int32_t Report(nscdd_solver* solver, nscdd_report* report) {
     report->status = NSCDD_CONVERGED;
     report->reason = "all is well";
   }
+  if (Is("new_status") && result == NSCDD_OK) report->status = 77;
   return result;
 }
 
@@ -102,6 +103,12 @@ std::int32_t LoadStates(nscdd_solver* solver, std::uint64_t count, const void* c
   if (Is("no_load_states") && parts != nullptr && count > 0) return NSCDD_OK;
   const std::int32_t result = real->load_states(solver, count, parts, sizes);
   return Is("any_states") && parts != nullptr ? NSCDD_OK : result;
+}
+
+std::int32_t CheckOption(const char* solver, const char* name, const char* value, char* error, std::uint64_t size) {
+  if (Is("any_checked_option")) return NSCDD_OK;
+  if (Is("bad_checked_default") && name != nullptr && std::strcmp(name, "theta") == 0) return NSCDD_BAD_INPUT;
+  return real->check_option(solver, name, value, error, size);
 }
 
 const char* LastError(nscdd_solver* solver) {
@@ -132,9 +139,11 @@ const nscdd_plugin* MakeDescription() {
   plugin.load_state = LoadState;
   plugin.last_error = LastError;
   plugin.load_states = LoadStates;
+  plugin.check_option = CheckOption;
   if (Is("old_minor")) {
     plugin.header = {offsetof(nscdd_plugin, load_states), NSCDD_ABI_MAJOR, 0};
     plugin.load_states = nullptr;
+    plugin.check_option = nullptr;
   }
   return &plugin;
 }

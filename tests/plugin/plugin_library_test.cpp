@@ -43,7 +43,7 @@ TEST(PluginLibrary, RefusesWhatIsNoPlugin) {
 TEST(PluginLibrary, RefusesAnotherAbi) {
   ExpectRefused("wrong_major", {"ABI major 2", "needs 1"});
   ExpectRefused("truncated", {"24 bytes", std::to_string(HostAbi().struct_size)});
-  ExpectRefused("short_minor", {"ABI 1.1", std::to_string(sizeof(nscdd_plugin))});
+  ExpectRefused("short_minor", {"ABI 1.1", std::to_string(offsetof(nscdd_plugin, check_option))});
   ExpectRefused("other_mpi", {"Some Other MPI 7.0", HostAbi().mpi_library, "rebuild the plugin"});
 }
 
@@ -58,6 +58,21 @@ TEST(PluginLibrary, AnOlderMinorServesButForCheckpoints) {
   EXPECT_STREQ(old->plugin().name, "old");
   ExpectError([&] { old->RequireLoadStates(); }, {"old_minor.so", "ABI 1.0", "checkpoints need 1.1", "update"});
   EXPECT_NO_THROW(PluginLibrary::Load(Bad("sound"))->RequireLoadStates());
+}
+
+TEST(SolverRegistry, AsksThePluginAboutAnOption) {
+  for (const char* fault : {"none", "old_minor"}) {  // which has no check_option, but makes handles
+    SCOPED_TRACE(fault);
+    setenv("NSCDD_FAULT", fault, 1);
+    SolverRegistry registry;
+    registry.Add(Bad("faulty_plugin"));
+    unsetenv("NSCDD_FAULT");
+    EXPECT_EQ(registry.entries()[0].module->plugin().check_option == nullptr, std::string(fault) == "old_minor");
+    EXPECT_NO_THROW(registry.CheckOption("nscdd", "subdomains", "4x2"));
+    ExpectError([&] { registry.CheckOption("nscdd", "subdomains", "4"); }, {"option 'subdomains' is '4'", "4x2"});
+    ExpectError([&] { registry.CheckOption("nscd", "subdomains", "4x2"); }, {"'nscd' has no option 'subdomains'"});
+    ExpectError([&] { registry.CheckOption("none", "subdomains", "4x2"); }, {"no solver 'none'"});
+  }
 }
 
 TEST(PluginLibrary, RefusesHolesInTheDescription) {

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdlib>
 #include <limits>
+#include <type_traits>
 
 #include "expect_error.h"
 #include "layout.h"
+#include "report_copy.h"
 #include "validator/two_disk_host.h"
 
 namespace nscdd {
@@ -176,6 +180,52 @@ TEST(Solver, RefusesToBeReentered) {
   solver.Step(kTimeStep);
   EXPECT_TRUE(context.refused);
   EXPECT_EQ(context.inner.commits(), 1);
+}
+
+TEST(Report, CrossesTheInterfaceUnchanged) {
+  StepReport sent;
+  std::int64_t count = 100;
+  const auto fill = [&](const Figure&, auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_arithmetic_v<Value>) value = static_cast<Value>(++count) / 2;
+  };
+  ForEachFigure(fill, sent);
+  sent.solve.status = SolveStatus::kStalled;
+  sent.solve.reason = "why";
+  auto crossing = WithHeader<nscdd_report>();
+  crossing.header.abi_minor = NSCDD_ABI_MINOR;
+  CopyReport(sent, &crossing);
+  EXPECT_STREQ(crossing.reason, "why");
+  const auto same = [](const Figure& figure, const auto& here, const auto& there) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(here)>>) {
+      EXPECT_EQ(here, there) << figure.name;
+    }
+  };
+  ForEachFigure(same, sent, crossing);
+}
+
+// Figures were appended to nscdd_report since: what an older host did not reserve must not be written.
+TEST(Report, OfAnOlderHostIsNotOverrun) {
+  StepReport sent;
+  sent.solve.extrapolations = 5;
+  sent.solve.acceleration_restarts = 6;
+  auto target = WithHeader<nscdd_report>();
+  target.header.struct_size = offsetof(nscdd_report, acceleration_restarts);
+  target.acceleration_restarts = -1;
+  CopyReport(sent, &target);
+  EXPECT_EQ(target.extrapolations, 5);
+  EXPECT_EQ(target.acceleration_restarts, -1);
+  EXPECT_EQ(ReportSize(0), ReportSize(2));
+  EXPECT_EQ(ReportSize(NSCDD_ABI_MINOR), sizeof(nscdd_report));
+}
+
+// A status that a later plugin may know is not taken for success.
+TEST(Report, OfAnUnknownStatusIsNoSuccess) {
+  setenv("NSCDD_FAULT", "new_status", 1);
+  const auto library = PluginLibrary::Load(std::string(BAD_FOLDER) + "/faulty_plugin.so");
+  unsetenv("NSCDD_FAULT");
+  Solver solver(library, {.solver = "nscd", .options = {}, .host = nullptr, .communicator = {}});
+  EXPECT_EQ(solver.Solve(Column(4)).report.status, SolveStatus::kDiverged);
 }
 
 // The header of its report says what a host knows; hosts of ABI 1.0 and 1.1 have no NSCDD_FIXED.

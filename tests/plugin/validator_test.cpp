@@ -74,15 +74,17 @@ TEST_P(FaultyPlugin, IsCaught) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, FaultyPlugin,
     testing::Values(Fault{"new_description", "same description"}, Fault{"loud_name", "names of solvers"},
-                    Fault{"bad_default", "defaults have"}, Fault{"leak", "no memory behind"},
-                    Fault{"slow_step", "steps two disks"}, Fault{"shared_handle", "do not disturb"},
-                    Fault{"no_load", "saved state"}, Fault{"no_load_states", "saved state"}, Fault{"mpi", "leaves MPI alone"},
-                    Fault{"normal", "disk at rest"}, Fault{"tangential", "sliding disk"}, Fault{"inelastic", "head-on impact"},
+                    Fault{"bad_default", "defaults have"}, Fault{"bad_checked_default", "defaults have"},
+                    Fault{"leak", "no memory behind"}, Fault{"slow_step", "steps two disks"},
+                    Fault{"shared_handle", "do not disturb"}, Fault{"no_load", "saved state"},
+                    Fault{"no_load_states", "saved state"}, Fault{"mpi", "leaves MPI alone"}, Fault{"normal", "disk at rest"},
+                    Fault{"tangential", "sliding disk"}, Fault{"inelastic", "head-on impact"},
                     Fault{"sticky", "opening contact"}, Fault{"any_option", "unknown solvers, options"},
-                    Fault{"null_arguments", "null pointers"}, Fault{"destroy_null", "null pointers"},
-                    Fault{"truncated", "truncated structures"}, Fault{"long_sentence", "terminates its sentences"},
-                    Fault{"host_failure", "failing host"}, Fault{"silent", "failing host"}, Fault{"nan", "not numbers"},
-                    Fault{"any_dt", "not numbers"}, Fault{"any_state", "wrong states"}, Fault{"any_states", "wrong states"}),
+                    Fault{"any_checked_option", "unknown solvers, options"}, Fault{"null_arguments", "null pointers"},
+                    Fault{"destroy_null", "null pointers"}, Fault{"truncated", "truncated structures"},
+                    Fault{"long_sentence", "terminates its sentences"}, Fault{"host_failure", "failing host"},
+                    Fault{"silent", "failing host"}, Fault{"nan", "not numbers"}, Fault{"any_dt", "not numbers"},
+                    Fault{"any_state", "wrong states"}, Fault{"any_states", "wrong states"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(FaultyPluginItself, HasNoOtherFault) {

@@ -114,37 +114,12 @@ Outcome Run(const Packing& packing, const SteppingOptions& stepping, const Algor
 std::string Difference(const Outcome& one, const Outcome& other) {
   if (one.bodies.size() != other.bodies.size()) return fmt::format("{} and {} bodies", one.bodies.size(), other.bodies.size());
   for (std::size_t k = 0; k < one.reports.size(); ++k) {
-    const StepReport &a = one.reports[k], &b = other.reports[k];
-    const auto numbers = [](const StepReport& r) {
-      const Residuals& e = r.solve.residuals;
-      return std::vector<double>{static_cast<double>(r.solve.contacts),
-                                 static_cast<double>(r.solve.active),
-                                 static_cast<double>(r.solve.sticking),
-                                 static_cast<double>(r.solve.iterations),
-                                 e.nat,
-                                 e.nat_max,
-                                 e.quad,
-                                 e.maxm,
-                                 e.interface_jump,
-                                 e.relative_jump,
-                                 static_cast<double>(e.worst.body_a),
-                                 static_cast<double>(e.worst.body_b),
-                                 r.mean_interpenetration,
-                                 r.max_interpenetration,
-                                 r.kinetic_energy,
-                                 r.momentum_x,
-                                 r.momentum_y,
-                                 r.mean_radius,
-                                 r.max_drift,
-                                 static_cast<double>(r.solve.interface_bodies),
-                                 static_cast<double>(r.solve.interface_copies),
-                                 static_cast<double>(r.solve.max_multiplicity),
-                                 static_cast<double>(r.solve.empty_subdomains)};
+    std::string difference;
+    const auto compare = [&](const Figure& figure, const auto& a, const auto& b) {
+      if (figure.kind == FigureKind::kResult && a != b) difference = fmt::format("step {}: {} differs", k + 1, figure.name);
     };
-    const auto na = numbers(a), nb = numbers(b);
-    for (std::size_t i = 0; i < na.size(); ++i) {
-      if (na[i] != nb[i]) return fmt::format("step {}: number {} of the report is {:.17g} and {:.17g}", k + 1, i, na[i], nb[i]);
-    }
+    ForEachFigure(compare, one.reports[k], other.reports[k]);
+    if (!difference.empty()) return difference;
   }
   for (std::size_t i = 0; i < one.bodies.size(); ++i) {
     const BodyRow &a = one.bodies[i], &b = other.bodies[i];

@@ -120,7 +120,6 @@ TEST_F(AutoFront, RefusesWhatItCannotRead) {
     const std::string line = std::string("a,nscdd,subdomains=") + grid + ",1,1,1\n";
     EXPECT_THROW(ReadFront(Write("setting,solver,options,nat,interpenetration_max,seconds\n" + line)), Error) << grid;
   }
-  EXPECT_EQ(CellsOf("3x20"), 60);
 }
 
 TEST_F(AutoFront, SafeLadderBeginsCheapAndIsKnownToThePlugin) {

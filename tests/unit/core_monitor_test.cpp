@@ -150,8 +150,8 @@ TEST(Status, DivergedByNotANumber) {
   const SolveReport report = monitor.Finish(5, 5, &w.state);
   EXPECT_EQ(report.status, SolveStatus::kDiverged);
   ExpectReason(report, "nan");
-  EXPECT_EQ(report.residuals.worst.body_a, w.source.contacts.a[contact]);
-  EXPECT_EQ(report.residuals.worst.body_b, w.source.contacts.b[contact]);
+  EXPECT_EQ(report.residuals.worst_body_a, w.source.contacts.a[contact]);
+  EXPECT_EQ(report.residuals.worst_body_b, w.source.contacts.b[contact]);
   for (const double r : w.state.subdomains.front().impulse) EXPECT_EQ(r, 0.0);
 }
 
@@ -245,8 +245,8 @@ TEST(WorstContact, IsNamed) {
   monitor.Stops(1, w.statistics, {}, w.state);
   const SolveReport report = monitor.Finish(1, 1, &w.state);
   EXPECT_EQ(report.residuals.nat_max, 0.5);
-  EXPECT_EQ(report.residuals.worst.body_a, (std::int64_t{1} << 60) + p.contacts.a[bad]);
-  EXPECT_EQ(report.residuals.worst.body_b, (std::int64_t{1} << 60) + p.contacts.b[bad]);
+  EXPECT_EQ(report.residuals.worst_body_a, (std::int64_t{1} << 60) + p.contacts.a[bad]);
+  EXPECT_EQ(report.residuals.worst_body_b, (std::int64_t{1} << 60) + p.contacts.b[bad]);
 }
 
 TEST(BadProblems, AreRefusedWithASentence) {

@@ -2,6 +2,7 @@
 // steps.csv and final.csv.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -25,14 +26,14 @@ TEST(StepsCsv, HeaderBeginsAsPromisedAndRowsFitIt) {
   const TemporaryFolder folder;
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
   StepsCsv steps(&results);
-  StepRow row;
+  StepReport row;
   row.step = 12;
   row.time = 0.1;
-  row.contacts = 34;
-  row.status = "iteration_limit";
-  row.nat = std::nextafter(1e-4, 1.0);
-  row.interface_jump = std::numeric_limits<double>::quiet_NaN();
-  row.reason = "10000 iterations, \"limit\"\nreached";
+  row.solve.contacts = 34;
+  row.solve.status = SolveStatus::kIterationLimit;
+  row.solve.residuals.nat = std::nextafter(1e-4, 1.0);
+  row.solve.residuals.interface_jump = std::numeric_limits<double>::quiet_NaN();
+  row.solve.reason = "10000 iterations, \"limit\"\nreached";
   steps.Append(row);
   const std::vector<std::string> while_running = Split(TextOf(folder.path() / "steps.csv.part"), '\n');
   ASSERT_EQ(while_running.size(), 2u);
@@ -52,16 +53,18 @@ TEST(StepsCsv, HeaderBeginsAsPromisedAndRowsFitIt) {
   EXPECT_EQ(cells[1], "0.1");
   EXPECT_EQ(cells[2], "34");
   EXPECT_EQ(cells[5], "iteration_limit");
-  EXPECT_EQ(std::stod(cells[6]), row.nat);  // every bit survives
+  EXPECT_EQ(std::stod(cells[6]), row.solve.residuals.nat);  // every bit survives
   EXPECT_EQ(cells[9], "nan");
-  EXPECT_EQ(cells.back(), "10000 iterations;  limit  reached");
+  const std::vector<std::string> names = Split(lines[0], ',');
+  const auto reason = std::find(names.begin(), names.end(), "reason") - names.begin();
+  EXPECT_EQ(cells[static_cast<std::size_t>(reason)], "10000 iterations;  limit  reached");
 }
 
 TEST(StepsCsv, WhatDependsOnTheRanksIsElsewhere) {
   const TemporaryFolder folder;
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());
   StepsCsv steps(&results);
-  StepRow row;
+  StepReport row;
   steps.Append(row);
   row.messages = row.message_bytes = row.collectives = row.migrated_bodies = 77;
   steps.Append(row);
@@ -69,14 +72,14 @@ TEST(StepsCsv, WhatDependsOnTheRanksIsElsewhere) {
   EXPECT_EQ(lines[1], lines[2]);
 }
 
-StepRow RowOfStep(std::int64_t step) {
-  StepRow row;
+StepReport RowOfStep(std::int64_t step) {
+  StepReport row;
   row.step = step;
   row.time = 0.1 * static_cast<double>(step);
-  row.nat = 1.0 / static_cast<double>(3 * step);
-  row.worst_body_a = -1;
-  row.status = "stalled";
-  row.reason = "";
+  row.solve.residuals.nat = 1.0 / static_cast<double>(3 * step);
+  row.solve.residuals.worst_body_a = -1;
+  row.solve.status = SolveStatus::kStalled;
+  row.solve.reason = "";
   return row;
 }
 
@@ -96,13 +99,13 @@ TEST(StepsCsv, GoesOnWhereItWasKept) {
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_EQ(kept[0].size, text.size());
   EXPECT_NO_THROW(CheckExtent(folder.path(), kept[0]));
-  std::vector<StepRow> rows;
-  ForEachStepRow(folder.path(), kept, [&](const StepRow& row) { rows.push_back(row); });
+  std::vector<StepReport> rows;
+  ForEachStep(folder.path(), kept, [&](const StepReport& row) { rows.push_back(row); });
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[1].step, 2);
-  EXPECT_EQ(rows[1].nat, 1.0 / 6.0);  // every bit survives
-  EXPECT_EQ(rows[1].worst_body_a, -1);
-  EXPECT_EQ(rows[1].status, "stalled");
+  EXPECT_EQ(rows[1].solve.residuals.nat, 1.0 / 6.0);  // every bit survives
+  EXPECT_EQ(rows[1].solve.residuals.worst_body_a, -1);
+  EXPECT_EQ(rows[1].solve.status, SolveStatus::kStalled);
   ResultsFolder results(folder.path(), IdentityOf("a"), RankGroup());  // takes the parts away
   std::ofstream(folder.path() / "steps.csv.part") << text << "3,half a row";
   StepsCsv steps(&results, kept);
@@ -123,12 +126,14 @@ TEST(StepsCsv, RowsOfAnotherProgramAreNamed) {
   const auto refusal = [&](const std::string& text) {
     std::ofstream(folder.path() / "steps.csv.part") << text;
     const std::vector<FileExtent> extent = {ExtentOf(folder.path(), "steps.csv.part")};
-    return SentenceOf([&] { ForEachStepRow(folder.path(), extent, [](const StepRow&) {}); });
+    return SentenceOf([&] { ForEachStep(folder.path(), extent, [](const StepReport&) {}); });
   };
   EXPECT_EQ(refusal(good), "");
   EXPECT_NE(refusal("a" + good).find("steps.csv.part:1: "), std::string::npos);
   EXPECT_NE(refusal(good + "2,3\n").find("steps.csv.part:3: "), std::string::npos);
   EXPECT_NE(refusal(good + "x" + good.substr(good.find('\n') + 2)).find("steps.csv.part:3: "), std::string::npos);
+  const std::size_t word = good.find("stalled");
+  EXPECT_NE(refusal(good.substr(0, word) + "exploded" + good.substr(word + 7)).find("steps.csv.part:2: "), std::string::npos);
   EXPECT_NE(refusal(good.substr(0, good.size() - 1)), "");
   EXPECT_NE(refusal(""), "");
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "results/progress_bar.h"
 #include "results/run_summary.h"
@@ -23,10 +24,10 @@ std::string Output(ProgressBar::Style style, std::int64_t steps, double seconds_
     ProgressBar bar(stream, style, steps, [&] { return now; });
     for (std::int64_t i = 1; i <= steps; ++i) {
       now += seconds_per_step;
-      StepRow row;
+      StepReport row;
       row.step = i;
-      row.iterations = 42;
-      if (i == 3) row.status = "stalled";
+      row.solve.iterations = 42;
+      if (i == 3) row.solve.status = SolveStatus::kStalled;
       bar.Update(row);
     }
   }
@@ -101,12 +102,12 @@ RunSummary SampleSummary() {
   summary.steps_asked = 4;
   summary.seconds_wall = 5.0;
   for (int i = 1; i <= 4; ++i) {
-    StepRow row;
+    StepReport row;
     row.step = i;
     row.time = 0.01 * i;
     row.bodies = 730;
-    row.iterations = 10 * i;
-    row.nat = 1e-5 * i;
+    row.solve.iterations = 10 * i;
+    row.solve.residuals.nat = 1e-5 * i;
     row.mean_interpenetration = 1e-6 * i;
     row.max_interpenetration = 1e-5 * (5 - i);
     row.mean_radius = 0.01;
@@ -114,14 +115,14 @@ RunSummary SampleSummary() {
     row.seconds_total = 1.0;
     row.seconds_solve = 0.5;
     row.messages = 100;
-    row.unknowns_per_contact = i == 1 ? 1 : 2;  // a pair without friction meets first
-    row.unknowns_per_body = 3;
-    row.bytes_per_contact = i == 1 ? 64 : 112;
-    row.bytes_per_body = 40;
-    row.worst_body_a = 4;
-    row.worst_body_b = 9;
-    row.reason = "1000 iterations without success";
-    if (i >= 3) row.status = i == 3 ? "iteration_limit" : "stalled";
+    row.solve.unknowns_per_contact = i == 1 ? 1 : 2;  // a pair without friction meets first
+    row.solve.unknowns_per_body = 3;
+    row.solve.bytes_per_contact = i == 1 ? 64 : 112;
+    row.solve.bytes_per_body = 40;
+    row.solve.residuals.worst_body_a = 4;
+    row.solve.residuals.worst_body_b = 9;
+    row.solve.reason = "1000 iterations without success";
+    if (i >= 3) row.solve.status = i == 3 ? SolveStatus::kIterationLimit : SolveStatus::kStalled;
     summary.Add(row);
   }
   return summary;
@@ -142,9 +143,9 @@ TEST(RunSummary, GathersMeansAndMaxima) {
 
 TEST(RunSummary, AFixedNumberOfIterationsIsNoFailure) {
   RunSummary summary;
-  StepRow row;
-  row.status = "fixed";
-  row.nat = 0.25;
+  StepReport row;
+  row.solve.status = SolveStatus::kFixed;
+  row.solve.residuals.nat = 0.25;
   for (int i = 0; i < 2; ++i) summary.Add(row);
   EXPECT_EQ(summary.not_converged(), 0);
   const std::string table = FormatSummary(summary);
@@ -171,7 +172,7 @@ TEST(RunSummary, NonConvergenceIsOneLoudLine) {
 
 TEST(RunSummary, FastBodiesAreMentioned) {
   RunSummary summary;
-  StepRow row;
+  StepReport row;
   row.max_drift = 2.0;
   row.alert_distance = 1.0;
   row.mean_radius = 3.0;
@@ -182,7 +183,7 @@ TEST(RunSummary, FastBodiesAreMentioned) {
 // Half-way through the step a body may be behind a thin wall, however far contacts are sought.
 TEST(RunSummary, BodiesThatMoveByARadiusAreMentioned) {
   RunSummary summary;
-  StepRow row;
+  StepReport row;
   row.max_drift = 2.0;
   row.alert_distance = 10.0;
   row.mean_radius = 3.0;
@@ -195,22 +196,25 @@ TEST(RunSummary, BodiesThatMoveByARadiusAreMentioned) {
 
 TEST(RunSummary, UnevenConvergenceIsMentioned) {
   RunSummary summary;
-  StepRow row;
-  row.status = "converged";
-  row.nat_max = 0.4;
+  StepReport row;
+  row.solve.status = SolveStatus::kConverged;
+  row.solve.residuals.nat_max = 0.4;
   summary.Add(row);
   EXPECT_EQ(FormatSummary(summary).find("UNEVEN"), std::string::npos);
-  row.nat_max = 0.9;
+  row.solve.residuals.nat_max = 0.9;
   summary.Add(row);
   EXPECT_NE(FormatSummary(summary).find("UNEVEN: in 1 step "), std::string::npos);
 }
 
-TEST(RunSummary, AnUnknownStatusIsNoSuccess) {
+// Ids are no quantities: their sum would overflow.
+TEST(RunSummary, DoesNotAddIds) {
   RunSummary summary;
-  StepRow row;
-  row.status = "exploded";
-  summary.Add(row);
-  EXPECT_EQ(summary.not_converged(), 1);
+  StepReport row;
+  row.solve.residuals.worst_body_a = std::numeric_limits<std::int64_t>::max();
+  row.solve.iterations = std::numeric_limits<std::int32_t>::max();
+  for (int i = 0; i < 3; ++i) summary.Add(row);
+  EXPECT_EQ(summary.sum.solve.residuals.worst_body_a, 0);
+  EXPECT_EQ(summary.sum.solve.iterations, std::int64_t{3} * std::numeric_limits<std::int32_t>::max());
 }
 
 }  // namespace

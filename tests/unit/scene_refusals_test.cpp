@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"inf_dt", WithTime("dt = inf\nsteps = 3\n"), 2, {"'time.dt' is inf"}},
         BadScene{"real_steps", WithTime("dt = 1\nsteps = 3.5\n"), 3, {"'time.steps'", "integer"}},
         BadScene{"zero_steps", WithTime("dt = 1\nsteps = 0\n"), 3, {"'time.steps' is 0"}},
-        BadScene{"theta", WithTime("dt = 1\nsteps = 1\ntheta = 0.4\n"), 4, {"'time.theta' is 0.4", "0.5 to 1"}},
+        BadScene{"theta", WithTime("dt = 1\nsteps = 1\ntheta = nan\n"), 4, {"'time.theta' is nan"}},
         BadScene{"time_is_list", "time = [1]\n" + kDisk, 1, {"key 'time' is a list", "table [time]"}},
         BadScene{"scene_name", "[scene]\nname = \"a/b\"\n" + kGood, 2, {"'scene.name'", "letters"}},
         BadScene{"adapter", "[scene]\nadapter = \"box3d\"\n" + kGood, 2, {"'scene.adapter'", "did you mean 'box2d'?"}},

@@ -14,6 +14,8 @@ enum class Criterion {
   kQm16,    ///< LMGC90's 'QM/16': Quad, and maxima below 16.666 times the tolerance
 };
 
+// Names, limits and help of the options: option_table.h.
+
 /// When an iteration stops.
 struct StoppingOptions {
   Criterion criterion = Criterion::kNat;
@@ -32,7 +34,7 @@ enum class NormalLaw {
 
 /// Moreau-Jean scheme and contact law.
 struct SteppingOptions {
-  double theta = 0.5;            ///< [-] in [1/2, 1]; contacts are detected at q + (1 - theta) dt V
+  double theta = 0.5;            ///< [-] contacts are detected at q + (1 - theta) dt V
   double alert_distance = -1.0;  ///< [m] pairs with a larger gap are no candidates; < 0: a tenth of the mean disk radius
   NormalLaw normal_law = NormalLaw::kGap;
   double feedback_beta = 0.05;  ///< [-] part of the interpenetration that one step undoes
@@ -57,7 +59,7 @@ enum class Acceleration {
 /// Extrapolation of the iterates.
 struct AccelerationOptions {
   Acceleration method = Acceleration::kAnderson;
-  int depth = 5;  ///< iterates before the last that are combined, 1 to 8
+  int depth = 5;  ///< iterates before the last that are combined
   int every = 1;  ///< iterations between two extrapolations
 };
 
@@ -109,7 +111,7 @@ enum class LinearLibrary { kAuto, kEigen, kMumps };
 
 /// The augmented interface problem  X_lambda F = sum_E A_E M_lambda,E^-1 y_E.
 struct AugmentedInterfaceOptions {
-  double lambda = 10.0;  ///< [-] search direction over the reference mass, 0 to 1e8; 0: the plain interface of NSCDD
+  double lambda = 10.0;  ///< [-] search direction over the reference mass; 0: the plain interface of NSCDD
   Compatibility compatibility = Compatibility::kNormal;
   StatusCompatibility status_compatibility = StatusCompatibility::kSame;
   LocalVelocity local_velocity = LocalVelocity::kLocal;

@@ -1,59 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "nscdd/contact_table.h"
+#include "nscdd/figures.h"
 
 namespace nscdd {
 
-/// How a solve ended. Solvers whose residual need not fall from test to test (accelerated ones, the augmented interface,
-/// newton) return the best tested iterate, the others the last one, or zero impulses if it diverged.
-enum class SolveStatus {
-  kConverged,       ///< the criterion fell below its tolerance (or there was no contact)
-  kIterationLimit,  ///< max_iterations reached first
-  kStalled,         ///< no new minimum of the residual for stall_iterations iterations, or no further step was possible
-  kDiverged,        ///< the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1
-  kIncomplete,  ///< an incomplete resolution (REA, IEA) did all that it does; the criterion does not hold for the whole sample
-  kFixed,       ///< tolerance 0: it made the max_iterations iterations that it was asked for
+/// How a solve ended; words and meanings: kStatuses. Solvers whose residual need not fall from test to test (accelerated ones,
+/// the augmented interface, newton) return the best tested iterate, the others the last one, or zero impulses if it diverged.
+enum class SolveStatus { kConverged, kIterationLimit, kStalled, kDiverged, kIncomplete, kFixed };
+
+/// A status in files and options.
+struct StatusWord {
+  const char* word;
+  bool is_as_asked;  ///< the solve did what it was asked for
+  const char* help;
+};
+
+/// By SolveStatus.
+inline constexpr std::array kStatuses = {
+    StatusWord{"converged", true, "the criterion fell below its tolerance, or there was no contact"},
+    StatusWord{"iteration_limit", false, "max_iterations reached first"},
+    StatusWord{"stalled", false,
+               "no new minimum of the residual for stall_iterations iterations, or no further step was possible"},
+    StatusWord{"diverged", false,
+               "the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1"},
+    StatusWord{"incomplete", true,
+               "an incomplete resolution (rea, iea) did all that it does; the criterion does not hold for the whole sample"},
+    StatusWord{"fixed", true, "tolerance 0: it made the max_iterations iterations that it was asked for"},
 };
 
 /// Whether the solve did what it was asked for.
-constexpr bool IsAsAsked(SolveStatus status) {
-  return status == SolveStatus::kConverged || status == SolveStatus::kIncomplete || status == SolveStatus::kFixed;
-}
+constexpr bool IsAsAsked(SolveStatus status) { return kStatuses[static_cast<std::size_t>(status)].is_as_asked; }
 
 /// The word of a status in files and options.
-constexpr const char* NameOf(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kStalled:
-      return "stalled";
-    case SolveStatus::kIncomplete:
-      return "incomplete";
-    case SolveStatus::kFixed:
-      return "fixed";
-    case SolveStatus::kDiverged:
-      break;
+constexpr const char* NameOf(SolveStatus status) { return kStatuses[static_cast<std::size_t>(status)].word; }
+
+/// The status of that word; none if there is no such word.
+constexpr std::optional<SolveStatus> FindStatus(std::string_view word) {
+  for (std::size_t i = 0; i < kStatuses.size(); ++i) {
+    if (kStatuses[i].word == word) return static_cast<SolveStatus>(i);
   }
-  return "diverged";
+  return std::nullopt;
 }
 
-/// Natural residuals of the global problem at the end, and what the last tested sweep changed. Definitions: residual.h.
+#define NSCDD_NO_FIGURE(type, name, kind, unit, help)
+#define NSCDD_FIGURE(type, name, kind, unit, help) type name{};
+
+/// Residuals of the global problem at the end, and what the last tested sweep changed: the RESIDUAL lines of figures.h.
+/// Definitions: residual.h.
 struct Residuals {
-  double nat = 0.0;             ///< [-]
-  double nat_max = 0.0;         ///< [-] in units of max(|f| dt / m, approach speed, recovery speed)
-  double quad = 0.0;            ///< [-] max(QuadDV, QuadDVR)
-  double maxm = 0.0;            ///< [-] max(MaxmDV, MaxmDVR)
-  double qm16 = 0.0;            ///< [-] max(quad, maxm / 16.666)
-  double interface_jump = 0.0;  ///< [m/s] rms over interface copies of V_E - mean, before the last stage 2
-  double relative_jump = 0.0;   ///< [-] eta: the same over QuadWR
-  ContactKey worst;             ///< contact with the largest nat_max
+  NSCDD_FIGURES(NSCDD_NO_FIGURE, NSCDD_NO_FIGURE, NSCDD_FIGURE)
 };
 
 /// Residuals at one test.
@@ -65,60 +69,49 @@ struct IterationRecord {
   double interface_jump = 0.0;
 };
 
-/// What a solve did. The same on all ranks.
+/// What a solve did: the SOLVE lines of figures.h, residuals, and residuals at each test. The same on all ranks but for
+/// seconds_*, which are this rank's.
 struct SolveReport {
-  SolveStatus status = SolveStatus::kConverged;
-  std::string reason;  ///< one clause: why it stopped
+  NSCDD_FIGURES(NSCDD_NO_FIGURE, NSCDD_FIGURE, NSCDD_NO_FIGURE)
   Residuals residuals;
-  int iterations = 0;  ///< sweeps (NSCD), interface updates (NSCDD, FEA), these and the local sweeps (REA), local sweeps (IEA)
-  std::int64_t sweeps = 0;                 ///< sweeps of every contact (of the subdomain that needed most, where they differ)
-  std::int64_t interface_updates = 0;      ///< stages 2
-  std::int64_t extrapolations = 0;         ///< of the acceleration
-  std::int64_t acceleration_restarts = 0;  ///< times that it forgot its history because the residual had grown
-  std::int64_t cg_iterations = 0;          ///< of all updates
-  std::int64_t cg_failures = 0;            ///< updates in which the conjugate gradient met its iteration limit
-  std::int64_t analyses = 0;               ///< symbolic factorisations
-  std::int64_t factorisations = 0;         ///< numeric ones
-  double seconds_interface = 0.0;          ///< in the augmented interface, this rank
-  std::int64_t contacts = 0;               ///< candidates
-  std::int64_t active = 0;                 ///< r_n > 0
-  std::int64_t sticking = 0;               ///< active, |r_t| < mu r_n
-  std::int64_t subdomains = 0;
-  std::int64_t empty_subdomains = 0;
-  std::int64_t interface_bodies = 0;
-  std::int64_t interface_copies = 0;
-  int max_multiplicity = 0;
-  int unknowns_per_contact = 0;  ///< 1 without friction, else 2
-  int unknowns_per_body = 0;     ///< 2 for disks without friction, else 3
-  int bytes_per_contact = 0;     ///< of the sweep: constants and impulse
-  int bytes_per_body = 0;        ///< of the sweep: velocity and inverse masses
-  int painleve_contacts = 0;     ///< local problems without or with two solutions (mu |W_nt| >= W_nn)
   std::vector<IterationRecord> history;
 };
 
-/// What a time step did. The same on all ranks but for seconds_*, which are this rank's.
+/// What a time step did: the STEP lines of figures.h, and the solve. The same on all ranks but for seconds_*, which are this
+/// rank's.
 struct StepReport {
+  NSCDD_FIGURES(NSCDD_FIGURE, NSCDD_NO_FIGURE, NSCDD_NO_FIGURE)
   SolveReport solve;
-  std::int64_t step = 0;               ///< counted from 1
-  double time = 0.0;                   ///< [s] at the end of the step
-  std::int64_t bodies = 0;             ///< free ones
-  double mean_interpenetration = 0.0;  ///< [m] of max(0, -gap) at the end of the step over the candidates
-  double max_interpenetration = 0.0;   ///< [m]
-  double mean_radius = 0.0;            ///< [m] of free bodies
-  double kinetic_energy = 0.0;         ///< [J] of free bodies at the end
-  double momentum_x = 0.0;             ///< [N s] of free bodies at the end
-  double momentum_y = 0.0;
-  double injected_energy = 0.0;  ///< [J] work bound of gap feedback: sum of r_n max(0, -b_n)
-  double max_drift = 0.0;  ///< [m] largest distance a free body moved in the step; above alert_distance contacts may be missed
-  double alert_distance = 0.0;       ///< [m] used
-  std::int64_t migrated_bodies = 0;  ///< that changed rank
-  std::int64_t messages = 0;         ///< sent by all ranks in the step
-  std::int64_t message_bytes = 0;
-  std::int64_t collectives = 0;
-  double seconds_detect = 0.0;
-  double seconds_solve = 0.0;  ///< communication within it excluded
-  double seconds_communicate = 0.0;
-  double seconds_total = 0.0;
 };
+
+#undef NSCDD_FIGURE
+#undef NSCDD_NO_FIGURE
+
+/// Calls visit(figure, members...) for each figure in the order of figures.h, with its member of each report: StepReports, or
+/// flat structures that have all figures as members of their own, as nscdd_report.
+template <class Visit, class... Reports>
+void ForEachFigure(Visit visit, Reports&... reports) {
+  const auto solve = [](auto& r) -> auto& {
+    if constexpr (requires { r.solve; })
+      return r.solve;
+    else
+      return r;
+  };
+  const auto residuals = [&](auto& r) -> auto& {
+    if constexpr (requires { r.solve; })
+      return r.solve.residuals;
+    else
+      return r;
+  };
+#define NSCDD_VISIT_STEP(type, name, kind, unit, help) visit(Figure{#name, FigureKind::kind, unit, help}, reports.name...);
+#define NSCDD_VISIT_SOLVE(type, name, kind, unit, help) \
+  visit(Figure{#name, FigureKind::kind, unit, help}, solve(reports).name...);
+#define NSCDD_VISIT_RESIDUAL(type, name, kind, unit, help) \
+  visit(Figure{#name, FigureKind::kind, unit, help}, residuals(reports).name...);
+  NSCDD_FIGURES(NSCDD_VISIT_STEP, NSCDD_VISIT_SOLVE, NSCDD_VISIT_RESIDUAL)
+#undef NSCDD_VISIT_RESIDUAL
+#undef NSCDD_VISIT_SOLVE
+#undef NSCDD_VISIT_STEP
+}
 
 }  // namespace nscdd

@@ -267,23 +267,21 @@ void Monitor::CountContacts(const PartitionedState& state) {
 
 /// Names the contact with the largest nat_max at the last measurement; of equal ones that of the lowest subdomain.
 void Monitor::FindWorst() {
-  std::array<double, 6> mine{-1.0, 0, 0, 0, 0, 0};
+  std::array<double, 3> mine{-1.0, 0, 0};
   if (worst_.worst_contact >= 0) {
     const ContactTable& t = *problem_.contacts;
     const auto c = static_cast<std::size_t>(worst_.worst_contact);
     const auto id = [&](std::int32_t row) { return std::bit_cast<double>((*problem_.body_id)[row]); };  // any number fits
-    const auto shape = [&](const std::vector<std::int32_t>& column) { return column.empty() ? 0.0 : double(column[c]); };
-    mine = {worst_.worst, id(t.a[c]), id(t.b[c]), shape(t.shape_a), shape(t.shape_b), shape(t.image)};
+    mine = {worst_.worst, id(t.a[c]), id(t.b[c])};
   }
   const std::vector<double> all = communicator_->AllGather(mine);
   const double* best = all.data();
-  for (std::size_t i = 6; i < all.size(); i += 6) {
+  for (std::size_t i = 3; i < all.size(); i += 3) {
     if (Exceeds(all[i], best[0])) best = &all[i];
   }
   if (best[0] < 0.0) return;
-  report_.residuals.worst = {std::bit_cast<std::int64_t>(best[1]), std::bit_cast<std::int64_t>(best[2]),
-                             static_cast<std::int32_t>(best[3]), static_cast<std::int32_t>(best[4]),
-                             static_cast<std::int32_t>(best[5])};
+  report_.residuals.worst_body_a = std::bit_cast<std::int64_t>(best[1]);
+  report_.residuals.worst_body_b = std::bit_cast<std::int64_t>(best[2]);
 }
 
 SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedState* state) {
@@ -302,6 +300,7 @@ SolveReport Monitor::Finish(int iterations, std::int64_t sweeps, PartitionedStat
 SolveReport ReportWithoutContacts(const PartitionedProblem& problem) {
   SolveReport report;
   report.reason = "no contact";
+  report.residuals.worst_body_a = report.residuals.worst_body_b = -1;
   Describe(problem, &report);
   report.empty_subdomains = problem.subdomain_count;
   return report;

@@ -1,104 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "algorithms/option_checks.h"
-
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 #include "nscdd/error.h"
+#include "nscdd/option_table.h"
 
 namespace nscdd {
 namespace {
 
-void Require(bool holds, const std::string& sentence) {
-  if (!holds) throw Error(sentence);
+bool Inside(double value, const Limits& limits) {
+  return limits.excluded ? value > limits.least && value < limits.most : value >= limits.least && value <= limits.most;
 }
 
-void RequireAtLeast(const char* name, int value, int least) {
-  Require(value >= least, fmt::format("{} is {}; it must be at least {}", name, value, least));
+std::string Describe(const char* kind, const Limits& limits) {
+  std::string text = kind;
+  const bool below = limits.least > -1e308, above = limits.most < 1e308;
+  if (below) text += fmt::format(" {} {}", limits.excluded ? ">" : ">=", limits.least);
+  if (above) text += fmt::format("{} {} {}", below ? " and" : "", limits.excluded ? "<" : "<=", limits.most);
+  return text;
 }
 
-void Check(const StoppingOptions& o) {
-  Require(o.tolerance >= 0.0, fmt::format("tolerance is {}; it must not be negative", o.tolerance));
-  RequireAtLeast("max_iterations", o.max_iterations, 1);
-  RequireAtLeast("test_every", o.test_every, 1);
-  RequireAtLeast("stall_iterations", o.stall_iterations, 1);
-}
+struct Judge {
+  const Option& option;
+  bool operator()(bool) const { return true; }
+  bool operator()(int value) const { return Inside(value, option.limits); }
+  bool operator()(double value) const { return std::isfinite(value) && Inside(value, option.limits); }
+  bool operator()(WordIndex word) const { return word.index < option.words.size(); }
+  bool operator()(GridSize grid) const {
+    return grid.nx >= 1 && grid.ny >= 1 && Inside(static_cast<double>(grid.cells()), option.limits);
+  }
+};
 
-void Check(const PartitionOptions& p) {
-  Require(p.nx >= 1 && p.ny >= 1 && static_cast<std::int64_t>(p.nx) * p.ny <= 1'000'000,
-          fmt::format("subdomains is {}x{}; both must be at least 1 and their product at most 1000000", p.nx, p.ny));
-  RequireAtLeast("repartition_every", p.repartition_every, 1);
-}
+struct Demand {
+  const Option& option;
+  std::string operator()(bool) const { return "true or false"; }
+  std::string operator()(int) const { return Describe("a whole number", option.limits); }
+  std::string operator()(double) const { return Describe("a finite number", option.limits); }
+  std::string operator()(WordIndex) const { return fmt::format("one of {}", fmt::join(option.words, ", ")); }
+  std::string operator()(GridSize) const {
+    return fmt::format("a grid such as 4x2 of at most {} subdomains", option.limits.most);
+  }
+};
 
-void Check(const AugmentedInterfaceOptions& o) {
-  Require(o.lambda >= 0.0 && o.lambda <= 1e8,
-          fmt::format("lambda is {}; it must be in [0, 1e8]: above, F = y - M_lambda V~ has no digits left", o.lambda));
-  Require(o.reference_mass >= 0.0 && std::isfinite(o.reference_mass),
-          fmt::format("reference_mass is {} kg; it must not be negative (0: mean mass)", o.reference_mass));
-  Require(o.restoring >= 0.0 && o.restoring <= 1.0, fmt::format("restoring is {}; it must be in [0, 1]", o.restoring));
-  Require(o.cg_tolerance > 0.0 && o.cg_tolerance < 1.0,
-          fmt::format("cg_tolerance is {}; it must be in (0, 1)", o.cg_tolerance));
-  RequireAtLeast("cg_max_iterations", o.cg_max_iterations, 1);
-}
+struct Printer {
+  const Option& option;
+  std::string operator()(bool value) const { return value ? "true" : "false"; }
+  std::string operator()(int value) const { return fmt::format("{}", value); }
+  std::string operator()(double value) const { return fmt::format("{}", value); }
+  std::string operator()(WordIndex word) const {
+    return word.index < option.words.size() ? option.words[word.index] : fmt::format("number {}", word.index);
+  }
+  std::string operator()(GridSize grid) const { return fmt::format("{}x{}", grid.nx, grid.ny); }
+};
 
-void Check(const AccelerationOptions& o) {
-  Require(o.depth >= 1 && o.depth <= 8, fmt::format("anderson_depth is {}; it must be in 1 to 8", o.depth));
-  RequireAtLeast("anderson_every", o.every, 1);
-}
-
-void Check(const NscdOptions& o) {
-  Check(o.stopping);
-  Check(o.acceleration);
-}
-
-void Check(const NscddOptions& o) {
-  Check(o.stopping);
-  Check(o.partition);
-  Check(o.acceleration);
-  RequireAtLeast("sweeps_per_stage", o.sweeps_per_stage, 1);
-}
-
-void Check(const FeaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage, o.acceleration});
-  Check(o.interface);
-}
-
-void Check(const ReaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, o.sweeps_per_stage, {}});
-  Check(o.interface);
-  RequireAtLeast("max_interface_updates", o.max_interface_updates, 1);
-}
-
-void Check(const IeaOptions& o) {
-  Check(NscddOptions{o.stopping, o.partition, 1, {}});
-  Check(o.interface);
-  RequireAtLeast("polish_sweeps", o.polish_sweeps, 0);
-  RequireAtLeast("closing_updates", o.closing_updates, 0);
-}
-
-void Check(const NewtonOptions& o) {
-  Check(o.stopping);
-  Require(
-      o.stopping.criterion == Criterion::kNat || o.stopping.criterion == Criterion::kNatMax,
-      "criterion of solver newton must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it has none");
+void CheckCriterion(const NewtonOptions& o) {
+  const Criterion criterion = o.stopping.criterion;
+  if (criterion == Criterion::kNat || criterion == Criterion::kNatMax) return;
+  throw Error(
+      "option 'criterion' of solver 'newton' must be nat or nat_max: quad, maxm and qm16 measure what a sweep changes, and it "
+      "has "
+      "none");
 }
 
 }  // namespace
 
-void CheckAlgorithm(const AlgorithmOptions& algorithm) {
-  std::visit([](const auto& o) { Check(o); }, algorithm);
-}
+bool Allows(const Option& option, const OptionValue& value) { return std::visit(Judge{option}, value); }
 
-void CheckStepping(const SteppingOptions& s) {
-  Require(s.theta >= 0.5 && s.theta <= 1.0, fmt::format("theta is {}; it must be in [0.5, 1]", s.theta));
-  Require(std::isfinite(s.alert_distance), "alert_distance must be finite");
-  Require(s.feedback_beta >= 0.0 && s.feedback_beta <= 1.0,
-          fmt::format("feedback_beta is {}; it must be in [0, 1]", s.feedback_beta));
-  Require(s.feedback_slop >= 0.0, fmt::format("feedback_slop is {} m; it must not be negative", s.feedback_slop));
-  Require(s.feedback_cap >= 0.0, fmt::format("feedback_cap is {} m/s; it must not be negative", s.feedback_cap));
+std::string MustBe(const Option& option, const OptionValue& value) { return std::visit(Demand{option}, value); }
+
+std::string TextOf(const Option& option, const OptionValue& value) { return std::visit(Printer{option}, value); }
+
+void CheckSettings(const SolverSettings& settings) {
+  const auto is_meant = [&](const SolverEntry& entry) {
+    return entry.defaults.algorithm.index() == settings.algorithm.index();
+  };
+  const SolverEntry& solver = *std::find_if(SolverTable().begin(), SolverTable().end(), is_meant);
+  for (const Option& option : solver.options) {
+    const OptionValue value = option.get(settings);
+    if (Allows(option, value)) continue;
+    throw Error(fmt::format("option '{}' is '{}', must be {}", option.name, TextOf(option, value), MustBe(option, value)));
+  }
+  if (const auto* newton = std::get_if<NewtonOptions>(&settings.algorithm)) CheckCriterion(*newton);
 }
 
 }  // namespace nscdd

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "algorithms/algorithms.h"
-#include "algorithms/option_checks.h"
 #include "interface/gluing.h"
 #include "nscdd/error.h"
+#include "nscdd/option_table.h"
 #include "partition/grid.h"
 #include "problem/state.h"
 #include "stepping/step_problem.h"
@@ -147,7 +147,7 @@ std::vector<int> SubdomainsOf(std::span<const Vec2> sites, int nx, int ny) {
 }
 
 ContactSolution SolveContactProblem(const ContactProblem& p, const AlgorithmOptions& options, const std::vector<Vec2>& warm) {
-  CheckAlgorithm(options);
+  CheckSettings({{}, options});
   CheckBodies(p);
   CheckContacts(p);
   Require(warm.empty() || warm.size() == p.contacts.size(), "contact problem: warm impulses need one entry per contact");

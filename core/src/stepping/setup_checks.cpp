@@ -5,16 +5,15 @@
 
 #include <cmath>
 
-#include "algorithms/option_checks.h"
 #include "nscdd/error.h"
+#include "nscdd/option_table.h"
 #include "stepping/contact_checks.h"
 
 namespace nscdd {
 
 AdapterDescription CheckSetup(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter,
                               int ranks) {
-  CheckStepping(stepping);
-  CheckAlgorithm(algorithm);
+  CheckSettings({stepping, algorithm});
   AdapterDescription description = adapter->Describe();
   CheckPeriod(description);
   // A subdomain is never cut: ranks without one would have nothing to do.

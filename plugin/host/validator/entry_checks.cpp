@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "nscdd/grid_size.h"
 #include "nscdd/host/solver.h"
 #include "validator/check_list.h"
 #include "validator/elf_symbols.h"
@@ -66,10 +67,8 @@ bool HasType(const nscdd_option& option, const std::string& text) {
       return *end == '\0';
     case NSCDD_CHOICE:
       return fmt::format("|{}|", option.choices).find(fmt::format("|{}|", text)) != std::string::npos;
-    case NSCDD_GRID: {
-      const std::size_t cross = text.find('x');
-      return cross != text.npos && std::atoi(text.c_str()) > 0 && std::atoi(text.c_str() + cross + 1) > 0;
-    }
+    case NSCDD_GRID:
+      return ParseGrid(text).has_value();
     default:
       return false;
   }
@@ -85,6 +84,7 @@ void DefaultsAreAccepted(const std::string& path) {
              fmt::format("the default '{}' of option '{}' is not of its type", option.default_value, option.name));
       const Solver solver(library,
                           {.solver = name, .options = {{option.name, option.default_value}}, .host = {}, .communicator = {}});
+      CheckOption(library, name, option.name, option.default_value);
     }
   });
 }

@@ -53,6 +53,17 @@ void ExpectCreateRefused(const PluginLibrary& library, const nscdd_create_argume
          fmt::format("create refused {} without a terminated sentence", what));
 }
 
+/// By a plugin that has check_option.
+void ExpectOptionRefused(const PluginLibrary& library, const char* solver, const char* option, const char* value,
+                         const std::string& what) {
+  if (library.plugin().header.abi_minor < 3) return;
+  std::array<char, 1024> error{};
+  const std::int32_t result = library.plugin().check_option(solver, option, value, error.data(), error.size());
+  Expect(result != NSCDD_OK, fmt::format("check_option accepted {}; refuse it", what));
+  Expect(error[0] != '\0' && std::memchr(error.data(), 0, error.size()) != nullptr,
+         fmt::format("check_option refused {} without a terminated sentence", what));
+}
+
 nscdd_create_arguments Arguments(const char* solver) {
   auto arguments = WithHeader<nscdd_create_arguments>();
   arguments.solver = solver;
@@ -71,11 +82,14 @@ void UnknownNames(const std::string& path) {
     arguments.option_names = &option;
     arguments.option_values = &value;
     ExpectCreateRefused(*library, &arguments, "an option that does not exist");
+    ExpectOptionRefused(*library, "no_such_solver", option, value, "a solver that does not exist");
+    ExpectOptionRefused(*library, name.c_str(), option, value, "an option that does not exist");
     const nscdd_solver_info& info = *library->FindSolver(name);
     value = "no_such_value";
     for (std::uint64_t i = 0; i < info.option_count; ++i) {
       option = info.options[i].name;
       ExpectCreateRefused(*library, &arguments, fmt::format("{} = no_such_value", option));
+      ExpectOptionRefused(*library, name.c_str(), option, value, fmt::format("{} = no_such_value", option));
     }
   });
 }
@@ -93,6 +107,9 @@ void NullPointers(const std::string& path) {
     nscdd_create_arguments arguments = Arguments(name.c_str());
     arguments.solver = nullptr;
     ExpectCreateRefused(*library, &arguments, "a null solver name");
+    ExpectOptionRefused(*library, nullptr, "a", "1", "a null solver name");
+    ExpectOptionRefused(*library, name.c_str(), nullptr, "1", "a null option name");
+    ExpectOptionRefused(*library, name.c_str(), "a", nullptr, "a null value");
     arguments = Arguments(name.c_str());
     arguments.option_count = 1;
     ExpectCreateRefused(*library, &arguments, "one option and null arrays of them");

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "nscdd/error.h"
+#include "nscdd/grid_size.h"
 
 namespace nscdd {
 namespace {
@@ -49,7 +50,7 @@ class Line {
   }
 
   void CheckGrid(const std::string& grid) const {
-    if (CellsOf(grid) > 0) return;
+    if (ParseGrid(grid)) return;
     throw Error(fmt::format("{}: subdomains = {} is no grid such as 4x2; measure the front anew with `nscdd tradeoff --store`",
                             where_, grid));
   }
@@ -76,15 +77,6 @@ FrontEntry EntryOf(const Line& line) {
 }
 
 }  // namespace
-
-std::int64_t CellsOf(const std::string& grid) {
-  std::int32_t nx = 0, ny = 0;
-  const char* end = grid.data() + grid.size();
-  const auto [cross, error] = std::from_chars(grid.data(), end, nx);
-  if (error != std::errc() || cross == end || *cross != 'x') return 0;
-  const auto [last, error_y] = std::from_chars(cross + 1, end, ny);
-  return error_y == std::errc() && last == end && nx > 0 && ny > 0 ? std::int64_t{nx} * ny : 0;
-}
 
 std::filesystem::path FrontFileOf(const std::filesystem::path& scene) {
   std::filesystem::path file = scene;

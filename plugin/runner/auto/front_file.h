@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,9 +16,6 @@ struct FrontEntry {
   double nat = 0.0;               ///< [-] median
   double interpenetration = 0.0;  ///< largest of the run [mean radii]
 };
-
-/// Subdomains of a grid such as "4x2"; 0 if it is none.
-std::int64_t CellsOf(const std::string& grid);
 
 /// SCENE.front.csv for SCENE.toml.
 std::filesystem::path FrontFileOf(const std::filesystem::path& scene);

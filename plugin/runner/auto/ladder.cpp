@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "nscdd/grid_size.h"
+
 namespace nscdd {
 namespace {
 
@@ -14,9 +16,7 @@ constexpr const char* kOneSubdomain = "1x1";
 
 bool Has(const SolverRegistry& registry, const std::string& solver, const std::string& option) {
   for (const auto& entry : registry.entries()) {
-    if (solver != entry.info->name) continue;
-    const auto* end = entry.info->options + entry.info->option_count;
-    return std::any_of(entry.info->options, end, [&](const nscdd_option& o) { return option == o.name; });
+    if (solver == entry.info->name) return FindOption(*entry.info, option) != nullptr;
   }
   return false;
 }
@@ -69,8 +69,8 @@ Ladder MakeLadder(const AutoSettings& wish, const std::string& grid, int ranks, 
   for (const FrontEntry& entry : front) {
     const std::string own = GridOf(entry.setting);
     std::vector<std::string> unused;
-    const bool fits =
-        (grid.empty() || own == grid) && CellsOf(own) >= ranks && !KnownSettings({entry.setting}, registry, &unused).empty();
+    const bool fits = (grid.empty() || own == grid) && ParseGrid(own).value_or(GridSize{}).cells() >= ranks &&
+                      !KnownSettings({entry.setting}, registry, &unused).empty();
     if (fits) usable.push_back(entry);
   }
   if (usable.empty()) return {SafeLadder(grid.empty() ? kOneSubdomain : grid, registry), "safe defaults"};

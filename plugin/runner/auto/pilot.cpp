@@ -8,6 +8,7 @@
 #include <set>
 
 #include "nscdd/error.h"
+#include "nscdd/grid_size.h"
 
 namespace nscdd {
 namespace {
@@ -25,10 +26,8 @@ std::string WantedGrid(const Scene& scene, const SolverRequest& request) {
   for (const auto& [key, value] : request.options) {
     if (key == "subdomains") grid = value;
   }
-  const auto cross = grid.find('x');
-  const bool good = cross != std::string::npos && cross > 0 && cross + 1 < grid.size() && grid.size() < 16 &&
-                    grid.find_first_not_of("0123456789x") == std::string::npos && grid.rfind('x') == cross;
-  if (!grid.empty() && !good) throw Error(fmt::format("solver 'auto': option 'subdomains' is '{}'; write it as 4x2", grid));
+  if (!grid.empty() && !ParseGrid(grid))
+    throw Error(fmt::format("solver 'auto': option 'subdomains' is '{}'; write it as 4x2", grid));
   return grid;
 }
 

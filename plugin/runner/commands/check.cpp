@@ -36,8 +36,7 @@ Poses SortedPoses(const BodyTable& bodies) {
 
 /// As the run will use it: the scene's, or a tenth of the mean radius.
 double AlertDistance(const SolverChoice& choice, const SolverRegistry& registry, double mean_radius) {
-  const std::string text = OptionValue(choice, registry, "alert_distance");
-  const double asked = text.empty() ? -1.0 : std::stod(text);
+  const double asked = SteppingOf(choice, registry).alert_distance;
   return asked < 0.0 ? 0.1 * mean_radius : asked;
 }
 

@@ -25,25 +25,9 @@ struct Exported {
   ContactSolution answer;
 };
 
-/// The normal law that the solver was given, as far as it knows these options.
-SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& registry) {
-  const auto value = [&](const char* name) { return OptionValue(choice, registry, name); };
-  const auto number = [&](const char* name, double otherwise) {
-    return value(name).empty() ? otherwise : std::stod(value(name));
-  };
-  SteppingOptions o;
-  const std::string law = value("normal_law");
-  o.normal_law = law == "strict" ? NormalLaw::kStrict : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kGap;
-  o.feedback_beta = number("feedback_beta", o.feedback_beta);
-  o.feedback_slop = number("feedback_slop", o.feedback_slop);
-  o.feedback_cap = number("feedback_cap", o.feedback_cap);
-  return o;
-}
-
 std::string DescriptionOf(const std::string& what, const SolverChoice& choice, const SolveReport& report) {
-  const StepRow row = MakeStepRow({.solve = report});
   return fmt::format("{}; answer of nscdd {}, solver {}: {}, nat {:.3g}, nat_max {:.3g}", what, NSCDD_VERSION, choice.name,
-                     row.status, row.nat, row.nat_max);
+                     NameOf(report.status), report.residuals.nat, report.residuals.nat_max);
 }
 
 Exported FromScene(const ExportRequest& request) {

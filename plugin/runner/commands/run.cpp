@@ -75,7 +75,7 @@ class SceneRun {
   Ending StepsOrHint();
   Ending Steps();
   void SaveInitialState();
-  void Save(const StepRow& row);
+  void Save(const StepReport& report);
   void NoteDeepOverlaps(double mean_radius);
   void CloseResults();
   void PrintSummary(bool stopped);
@@ -143,8 +143,8 @@ void SceneRun::OpenResults() {
   if (resume_) {
     folder_->Identify(IdentityOf(plan_, ranks_.size()));
     ranks_.RunOnRoot(
-        [&] { ForEachStepRow(folder_->path(), resume_->head().tables, [&](const StepRow& row) { summary_.Add(row); }); });
-    seconds_before_ = summary_.seconds_steps;
+        [&] { ForEachStep(folder_->path(), resume_->head().tables, [&](const StepReport& step) { summary_.Add(step); }); });
+    seconds_before_ = summary_.sum.seconds_total;
     csv_ = std::make_unique<StepsCsv>(folder_.get(), resume_->head().tables);
     file_ = std::make_unique<ResultsFile>(folder_.get(), run, shapes_, resume_->head().segments);
   } else {
@@ -164,7 +164,7 @@ void SceneRun::OpenResults() {
   summary_.solver = plan_.pilot ? "auto" : plan_.choice.name;
   const std::string tolerance = OptionValue(plan_.choice, plan_.registry, "tolerance");
   summary_.criterion = fmt::format("{} <= {}", OptionValue(plan_.choice, plan_.registry, "criterion"), tolerance);
-  if (std::stod(tolerance) == 0.0)
+  if (OptionNumber(plan_.choice, plan_.registry, "tolerance") == 0.0)
     summary_.criterion = fmt::format("none: {} iterations", OptionValue(plan_.choice, plan_.registry, "max_iterations"));
   if (plan_.pilot) summary_.criterion = "of the rung in use";
   summary_.output = folder_->path().string();
@@ -233,14 +233,13 @@ SceneRun::Ending SceneRun::Steps() {
     StepReport report = solver_->Report();
     clock_.step = report.step = step;
     clock_.time = report.time = clock_.time + dt;
-    const StepRow row = MakeStepRow(report);
     folder_->KeepParts();
-    csv_->Append(row);
-    summary_.Add(row);
-    bar.Update(row);
+    csv_->Append(report);
+    summary_.Add(report);
+    bar.Update(report);
     const bool stop = !IsAsAsked(report.solve.status) && plan_.scene.solver.on_nonconvergence == OnNonconvergence::kStop;
     if (step == before() + 1) NoteDeepOverlaps(report.mean_radius);
-    if (IsSaved(step) || step == last || stop) Save(row);
+    if (IsSaved(step) || step == last || stop) Save(report);
     if (stop) return Ending::kNotConverged;
     if (plan_.pilot) {
       report.step = step - before();
@@ -258,9 +257,9 @@ void SceneRun::SaveInitialState() {
   file_->Save({start.step, start.TimeOf(start.step, plan_.scene.time.dt), MeanRadius(grains, ranks_)}, grains, {});
 }
 
-void SceneRun::Save(const StepRow& row) {
+void SceneRun::Save(const StepReport& report) {
   const double dt = plan_.scene.time.dt;
-  file_->Save({row.step, plan_.scene.clock().TimeOf(row.step, dt), row.mean_radius}, MakeGrainTable(*solver_),
+  file_->Save({report.step, plan_.scene.clock().TimeOf(report.step, dt), report.mean_radius}, MakeGrainTable(*solver_),
               MakeContactRows(*solver_, dt));
 }
 
@@ -306,7 +305,7 @@ void SceneRun::PrintSummary(bool stopped) {
   }
   if (stopped) {
     fmt::print(stderr, "nscdd: stopped at step {}, which did not converge (solver.on_nonconvergence = \"stop\"): {}\n",
-               summary_.last.step, summary_.last.reason);
+               summary_.last.step, summary_.last.solve.reason);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "nscdd/error.h"
+#include "nscdd/grid_size.h"
 #include "scene/read_scene.h"
 #include "scene/toml_file.h"
 
@@ -23,11 +24,9 @@ void Complete(RunPlan* plan) {
   const PluginLibrary& library = *plan->registry.Find(plan->choice.name).module;
   if (plan->record.checkpoint_every > 0) library.RequireLoadStates();
   plan->record.plugin = NameOf(library.plugin());
-  const std::string grid = OptionValue(plan->choice, plan->registry, "subdomains");
-  if (grid.empty()) return;
-  const auto cross = grid.find('x');
-  plan->subdomains_x = std::stoll(grid.substr(0, cross));
-  plan->subdomains_y = std::stoll(grid.substr(cross + 1));
+  const GridSize grid = ParseGrid(OptionValue(plan->choice, plan->registry, "subdomains")).value_or(GridSize{});
+  plan->subdomains_x = grid.nx;
+  plan->subdomains_y = grid.ny;
 }
 
 }  // namespace

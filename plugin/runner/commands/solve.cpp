@@ -7,7 +7,6 @@
 
 #include "commands/print_notes.h"
 #include "problem/problem_file.h"
-#include "run_results.h"
 
 namespace nscdd {
 
@@ -23,19 +22,17 @@ void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
   Solver solver = registry.Create({choice.name, choice.options, nullptr, {}});
   const ContactSolution solution = solver.Solve(file.problem);
 
-  StepReport report;
-  report.solve = solution.report;
-  const StepRow row = MakeStepRow(report);
+  const SolveReport& report = solution.report;
   nlohmann::ordered_json json;
   json["solver"] = choice.name;
-  json["status"] = row.status;
-  json["reason"] = row.reason;
-  json["iterations"] = row.iterations;
-  json["sweeps"] = row.sweeps;
-  json["nat"] = row.nat;
-  json["nat_max"] = row.nat_max;
-  json["qm16"] = row.qm16;
-  json["interface_jump"] = row.interface_jump;
+  json["status"] = NameOf(report.status);
+  json["reason"] = report.reason;
+  json["iterations"] = report.iterations;
+  json["sweeps"] = report.sweeps;
+  json["nat"] = report.residuals.nat;
+  json["nat_max"] = report.residuals.nat_max;
+  json["qm16"] = report.residuals.qm16;
+  json["interface_jump"] = report.residuals.interface_jump;
   if (!file.notes.sentences.empty()) json["notes"] = file.notes.sentences;
   for (const char* key : {"V_end", "r", "v"}) json[key] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < file.body_count; ++i) {

@@ -115,16 +115,8 @@ void TradeoffCommand::ReadStepping() {
   ForEachBody(scene_, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
   platform->SetGravity(GravityAt(scene_.gravity, 1, scene_.time.dt, scene_.clock()));
   plan_.mean_radius = 10.0 * DefaultAlertDistance(ReadSortedBodies(&platform->adapter()));
-  const auto number = [&](const char* key) { return std::stod(OptionValue(choice_, registry_, key)); };
-  SteppingOptions& s = plan_.stepping;
-  s.theta = scene_.time.theta;
-  s.alert_distance = number("alert_distance");
+  SteppingOptions& s = plan_.stepping = SteppingOf(choice_, registry_);
   if (s.alert_distance < 0.0) s.alert_distance = 0.1 * plan_.mean_radius;
-  s.feedback_beta = number("feedback_beta");
-  s.feedback_slop = number("feedback_slop");
-  s.feedback_cap = number("feedback_cap");
-  const std::string law = OptionValue(choice_, registry_, "normal_law");
-  s.normal_law = law == "gap" ? NormalLaw::kGap : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kStrict;
   for (const auto& option : choice_.options) {
     if (IsStepping(option.first) && option.first != "alert_distance") plan_.stepping_texts.push_back(option);
   }
@@ -138,7 +130,7 @@ void TradeoffCommand::MakeSettings() {
     if (!IsStepping(option.first)) own.options.push_back(option);
   }
   settings_ = {own};
-  std::vector<Setting> list = request_.settings.empty() ? DefaultSettings() : ReadSettings(request_.settings);
+  std::vector<Setting> list = request_.settings.empty() ? DefaultSettings() : ReadSettings(request_.settings, registry_);
   if (request_.quick && request_.settings.empty()) std::erase_if(list, [](const Setting& s) { return !s.quick; });
   settings_.insert(settings_.end(), list.begin(), list.end());
   for (const std::string& solver : request_.solvers) {

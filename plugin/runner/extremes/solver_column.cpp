@@ -31,12 +31,6 @@ std::vector<SolverColumn> AllColumns(const SolverRegistry& registry) {
 
 }  // namespace
 
-const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::string& name) {
-  const auto* end = solver.options + solver.option_count;
-  const auto* at = std::find_if(solver.options, end, [&](const nscdd_option& o) { return name == o.name; });
-  return at == end ? nullptr : at;
-}
-
 std::vector<SolverColumn> MakeColumns(const SolverRegistry& registry, const std::vector<std::string>& wanted) {
   std::vector<SolverColumn> columns = AllColumns(registry);
   if (wanted.empty()) return columns;

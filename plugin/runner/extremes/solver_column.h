@@ -20,7 +20,4 @@ struct SolverColumn {
 /// columns whose name or solver is in it; throws Error on a word that fits none.
 std::vector<SolverColumn> MakeColumns(const SolverRegistry& registry, const std::vector<std::string>& wanted);
 
-/// Null if the solver has no such option.
-const nscdd_option* FindOption(const nscdd_solver_info& solver, const std::string& name);
-
 }  // namespace nscdd

@@ -63,9 +63,9 @@ std::string ProgressBar::Line(const std::string& note, double now) const {
                                 : fmt::format("  {} taken", FormatDuration(now - begin_)));
 }
 
-void ProgressBar::Update(const StepRow& row) {
-  Update(fmt::format("{} iterations  nat {:.1e}", row.iterations, row.nat),
-         row.status != "converged" && row.status != "incomplete" && row.status != "fixed");
+void ProgressBar::Update(const StepReport& step) {
+  Update(fmt::format("{} iterations  nat {:.1e}", step.solve.iterations, step.solve.residuals.nat),
+         !IsAsAsked(step.solve.status));
 }
 
 void ProgressBar::Update(const std::string& note, bool failed) {

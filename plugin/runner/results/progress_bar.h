@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "results/step_row.h"
+#include "nscdd/report.h"
 
 namespace nscdd {
 
@@ -30,7 +30,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// After each step.
-  void Update(const StepRow& row);
+  void Update(const StepReport& step);
   /// The same for work that is no step of a run; `note` is what the line says of it.
   void Update(const std::string& note, bool failed = false);
   /// Ends the line of a bar, so that other output begins on a new one. Also done by the destructor.

@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include "nscdd/error.h"
 #include "results/mapped_file.h"
@@ -19,123 +17,69 @@
 namespace nscdd {
 namespace {
 
-struct Column {
-  const char* name;
-  std::string (*text)(const StepRow&);
-  bool (*read)(std::string_view, StepRow*);  ///< false: this is no such text
-};
+/// One of the two tables: which figures are its columns.
+using IsColumn = bool (*)(const Figure&);
 
-/// Shortest decimal that reads back as the same double, so equal bits give equal text and unequal ones do not.
-template <auto Member>
-std::string Plain(const StepRow& row) {
-  return fmt::format("{}", row.*Member);
+bool OfSteps(const Figure& figure) { return figure.kind == FigureKind::kResult || figure.kind == FigureKind::kSeconds; }
+bool OfCommunication(const Figure& figure) {
+  return figure.kind == FigureKind::kTraffic || figure.name == std::string_view("step");
 }
 
-template <auto Member>
-std::string Seconds(const StepRow& row) {
-  return fmt::format("{:.6f}", row.*Member);
+std::string Text(const Figure&, std::int64_t count) { return fmt::format("{}", count); }
+
+/// The shortest decimal that reads back as the same double, so equal bits give equal text and unequal ones do not.
+std::string Text(const Figure& figure, double value) {
+  return figure.kind == FigureKind::kSeconds ? fmt::format("{:.6f}", value) : fmt::format("{}", value);
 }
+
+std::string Text(const Figure&, SolveStatus status) { return NameOf(status); }
 
 /// A clause without what would need quotes in a table.
-template <auto Member>
-std::string Clause(const StepRow& row) {
-  std::string text = row.*Member;
+std::string Text(const Figure&, std::string text) {
   std::replace(text.begin(), text.end(), ',', ';');
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
-template <auto Member>
-bool Read(std::string_view text, StepRow* row) {
-  auto& value = row->*Member;
-  if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
-    value = text;
-    return true;
-  } else {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size();
-  }
+/// False: this is no such text.
+template <class Number>
+bool Read(std::string_view text, Number* value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *value);
+  return error == std::errc{} && end == text.data() + text.size();
 }
 
-#define NSCDD_COLUMN(kind, name) \
-  Column { #name, kind < &StepRow::name>, Read < &StepRow::name> }
+bool Read(std::string_view text, SolveStatus* status) {
+  const std::optional<SolveStatus> found = FindStatus(text);
+  if (found) *status = *found;
+  return found.has_value();
+}
 
-constexpr std::array kStepColumns = {
-    NSCDD_COLUMN(Plain, step),
-    NSCDD_COLUMN(Plain, time),
-    NSCDD_COLUMN(Plain, contacts),
-    NSCDD_COLUMN(Plain, active),
-    NSCDD_COLUMN(Plain, iterations),
-    NSCDD_COLUMN(Plain, status),
-    NSCDD_COLUMN(Plain, nat),
-    NSCDD_COLUMN(Plain, nat_max),
-    NSCDD_COLUMN(Plain, qm16),
-    NSCDD_COLUMN(Plain, interface_jump),
-    NSCDD_COLUMN(Plain, mean_interpenetration),
-    NSCDD_COLUMN(Plain, max_interpenetration),
-    NSCDD_COLUMN(Plain, kinetic_energy),
-    NSCDD_COLUMN(Plain, momentum_x),
-    NSCDD_COLUMN(Plain, momentum_y),
-    NSCDD_COLUMN(Seconds, seconds_detect),
-    NSCDD_COLUMN(Seconds, seconds_solve),
-    NSCDD_COLUMN(Seconds, seconds_communicate),
-    NSCDD_COLUMN(Plain, sweeps),
-    NSCDD_COLUMN(Plain, sticking),
-    NSCDD_COLUMN(Plain, bodies),
-    NSCDD_COLUMN(Plain, quad),
-    NSCDD_COLUMN(Plain, maxm),
-    NSCDD_COLUMN(Plain, relative_jump),
-    NSCDD_COLUMN(Plain, interface_bodies),
-    NSCDD_COLUMN(Plain, interface_copies),
-    NSCDD_COLUMN(Plain, max_multiplicity),
-    NSCDD_COLUMN(Plain, empty_subdomains),
-    NSCDD_COLUMN(Plain, painleve_contacts),
-    NSCDD_COLUMN(Plain, interface_updates),
-    NSCDD_COLUMN(Plain, cg_iterations),
-    NSCDD_COLUMN(Plain, cg_failures),
-    NSCDD_COLUMN(Plain, factorisations),
-    NSCDD_COLUMN(Plain, injected_energy),
-    NSCDD_COLUMN(Plain, max_drift),
-    NSCDD_COLUMN(Plain, alert_distance),
-    NSCDD_COLUMN(Plain, mean_radius),
-    NSCDD_COLUMN(Plain, worst_body_a),
-    NSCDD_COLUMN(Plain, worst_body_b),
-    NSCDD_COLUMN(Plain, unknowns_per_contact),
-    NSCDD_COLUMN(Plain, unknowns_per_body),
-    NSCDD_COLUMN(Plain, bytes_per_contact),
-    NSCDD_COLUMN(Plain, bytes_per_body),
-    NSCDD_COLUMN(Seconds, seconds_total),
-    NSCDD_COLUMN(Seconds, seconds_interface),
-    NSCDD_COLUMN(Clause, reason),
-};
+bool Read(std::string_view text, std::string* value) {
+  *value = text;
+  return true;
+}
 
-constexpr std::array kCommunicationColumns = {
-    NSCDD_COLUMN(Plain, step),          NSCDD_COLUMN(Plain, migrated_bodies), NSCDD_COLUMN(Plain, messages),
-    NSCDD_COLUMN(Plain, message_bytes), NSCDD_COLUMN(Plain, collectives),
-};
-
-#undef NSCDD_COLUMN
-
-template <class Columns, class Cell>
-std::string Line(const Columns& columns, Cell cell) {
+/// A line of the cells that `cell` makes of the figures that are columns, and of their values in `step`.
+template <class Cell>
+std::string Line(IsColumn is_column, const StepReport& step, Cell cell) {
   std::string line;
-  for (const Column& column : columns) {
-    if (!line.empty()) line += ',';
-    line += cell(column);
-  }
-  line += '\n';
+  const auto add = [&](const Figure& figure, const auto& value) {
+    if (!is_column(figure)) return;
+    line += cell(figure, value);
+    line += ',';
+  };
+  ForEachFigure(add, step);
+  line.back() = '\n';
   return line;
 }
 
-template <class Columns>
-std::string Header(const Columns& columns) {
-  return Line(columns, [](const Column& column) { return column.name; });
+std::string Header(IsColumn is_column) {
+  return Line(is_column, {}, [](const Figure& figure, const auto&) { return figure.name; });
 }
 
-template <class Columns>
-std::string Row(const Columns& columns, const StepRow& row) {
-  return Line(columns, [&](const Column& column) { return column.text(row); });
+std::string Row(IsColumn is_column, const StepReport& step) {
+  return Line(is_column, step, [](const Figure& figure, const auto& value) { return Text(figure, value); });
 }
 
 constexpr const char* kSteps = "steps.csv";
@@ -154,24 +98,25 @@ const FileExtent* Find(const std::vector<FileExtent>& kept, const std::string& n
 }
 
 /// Takes rows off the beginning of a file.
-template <class Columns>
 class RowReader {
  public:
-  RowReader(const std::filesystem::path& path, std::uint64_t size, const Columns& columns)
-      : path_(path), file_(path), rest_(file_.text().substr(0, size)), columns_(columns) {
-    if (TakeLine() + "\n" != Header(columns)) Refuse();
+  RowReader(const std::filesystem::path& path, std::uint64_t size, IsColumn is_column)
+      : path_(path), file_(path), rest_(file_.text().substr(0, size)), is_column_(is_column) {
+    if (TakeLine() + "\n" != Header(is_column)) Refuse();
   }
 
   bool empty() const { return rest_.empty(); }
 
-  void Take(StepRow* row) {
-    std::string line = TakeLine() + ",";
+  void Take(StepReport* step) {
+    const std::string line = TakeLine() + ",";
     std::string_view cells = line;
-    for (const Column& column : columns_) {
+    const auto read = [&](const Figure& figure, auto& value) {
+      if (!is_column_(figure)) return;
       const auto comma = cells.find(',');
-      if (comma == std::string_view::npos || !column.read(cells.substr(0, comma), row)) Refuse();
+      if (comma == std::string_view::npos || !Read(cells.substr(0, comma), &value)) Refuse();
       cells.remove_prefix(comma + 1);
-    }
+    };
+    ForEachFigure(read, *step);
     if (!cells.empty()) Refuse();
   }
 
@@ -192,38 +137,36 @@ class RowReader {
   std::filesystem::path path_;
   MappedFile file_;
   std::string_view rest_;
-  const Columns& columns_;
+  IsColumn is_column_;
   std::int64_t line_ = 0;
 };
 
 }  // namespace
 
-void ForEachStepRow(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
-                    const std::function<void(const StepRow&)>& visit) {
+void ForEachStep(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
+                 const std::function<void(const StepReport&)>& visit) {
   const FileExtent *steps = Find(kept, PartOf(kSteps)), *communication = Find(kept, PartOf(kCommunication));
   if (steps == nullptr) throw Error(fmt::format("the checkpoint in {} does not name {}.", folder.string(), PartOf(kSteps)));
-  RowReader rows(folder / steps->name, steps->size, kStepColumns);
-  std::optional<RowReader<decltype(kCommunicationColumns)>> sent;
-  if (communication != nullptr) sent.emplace(folder / communication->name, communication->size, kCommunicationColumns);
-  StepRow next;  // of communication.csv, which may begin later
+  RowReader rows(folder / steps->name, steps->size, OfSteps);
+  std::optional<RowReader> sent;
+  if (communication != nullptr) sent.emplace(folder / communication->name, communication->size, OfCommunication);
+  StepReport next;  // of communication.csv, which may begin later
   while (!rows.empty()) {
-    StepRow row;
-    rows.Take(&row);
-    if (sent && next.step < row.step && !sent->empty()) sent->Take(&next);
-    if (next.step == row.step) {
-      row.migrated_bodies = next.migrated_bodies;
-      row.messages = next.messages;
-      row.message_bytes = next.message_bytes;
-      row.collectives = next.collectives;
-    }
-    visit(row);
+    StepReport step;
+    rows.Take(&step);
+    if (sent && next.step < step.step && !sent->empty()) sent->Take(&next);
+    const auto take = [](const Figure& figure, auto& to, const auto& from) {
+      if (figure.kind == FigureKind::kTraffic) to = from;
+    };
+    if (next.step == step.step) ForEachFigure(take, step, next);
+    visit(step);
   }
 }
 
 StepsCsv::StepsCsv(ResultsFolder* folder) : folder_(folder) {
   folder->ranks().RunOnRoot([&] {
-    steps_ = Begin(folder->Stage(kSteps), Header(kStepColumns));
-    if (!folder->ranks().is_serial()) communication_ = Begin(folder->Stage(kCommunication), Header(kCommunicationColumns));
+    steps_ = Begin(folder->Stage(kSteps), Header(OfSteps));
+    if (!folder->ranks().is_serial()) communication_ = Begin(folder->Stage(kCommunication), Header(OfCommunication));
   });
 }
 
@@ -237,18 +180,18 @@ StepsCsv::StepsCsv(ResultsFolder* folder, const std::vector<FileExtent>& kept) :
     if (communication != nullptr) {
       communication_ = go_on(kCommunication, communication);
     } else if (!folder->ranks().is_serial()) {
-      communication_ = Begin(folder->Stage(kCommunication), Header(kCommunicationColumns));
+      communication_ = Begin(folder->Stage(kCommunication), Header(OfCommunication));
     }
   });
 }
 
 StepsCsv::~StepsCsv() = default;
 
-void StepsCsv::Append(const StepRow& row) {
+void StepsCsv::Append(const StepReport& step) {
   folder_->KeepParts();
   folder_->ranks().RunOnRoot([&] {
-    steps_->Write(Row(kStepColumns, row));
-    if (communication_) communication_->Write(Row(kCommunicationColumns, row));
+    steps_->Write(Row(OfSteps, step));
+    if (communication_) communication_->Write(Row(OfCommunication, step));
   });
 }
 

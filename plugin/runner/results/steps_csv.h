@@ -6,16 +6,16 @@
 #include <memory>
 #include <vector>
 
+#include "nscdd/report.h"
 #include "results/file_extent.h"
 #include "results/results_folder.h"
-#include "results/step_row.h"
 
 namespace nscdd {
 
 class StagedFile;
 
 /// steps.csv, one row per step, flushed row by row (steps.csv.part while the run lasts); with several ranks also
-/// communication.csv, the columns that depend on their number. Columns: README.md.
+/// communication.csv, the columns that depend on their number. Columns: nscdd/figures.h.
 class StepsCsv {
  public:
   /// Collective. Keeps a reference to `folder`.
@@ -24,8 +24,8 @@ class StepsCsv {
   StepsCsv(ResultsFolder* folder, const std::vector<FileExtent>& kept);
   ~StepsCsv();
 
-  /// Collective; rank 0's row counts. Throws Error on all ranks when it cannot be written.
-  void Append(const StepRow& row);
+  /// Collective; rank 0's report counts. Throws Error on all ranks when it cannot be written.
+  void Append(const StepReport& step);
   /// Collective. Brings the rows to the disk; rank 0 gets what a continuation begins from.
   std::vector<FileExtent> Keep();
   /// Collective; before ResultsFolder::Finish().
@@ -37,9 +37,9 @@ class StepsCsv {
   std::unique_ptr<StagedFile> communication_;  ///< rank 0 of several only, and where an earlier run of several ranks began it
 };
 
-/// Calls `visit` for each row of the files in `kept`. Throws Error, naming the file and the line, when one is not what StepsCsv
-/// writes.
-void ForEachStepRow(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
-                    const std::function<void(const StepRow&)>& visit);
+/// Calls `visit` for each row of the files in `kept`, with what they say of its step. Throws Error, naming the file and the
+/// line, when one is not what StepsCsv writes.
+void ForEachStep(const std::filesystem::path& folder, const std::vector<FileExtent>& kept,
+                 const std::function<void(const StepReport&)>& visit);
 
 }  // namespace nscdd

@@ -66,8 +66,8 @@ void ReadTime(TableReader* root, Scene* scene) {
   if (!table) root->Refuse("time", "is missing; write a table [time] with dt and steps");
   scene->time.dt = table->Number("dt", Bound::kPositive, "[s]");
   scene->time.steps = table->Integer("steps", 1, {}, kMostSteps);
-  scene->time.theta = table->Number("theta", Bound::kFraction, "(from 0.5 to 1)", scene->time.theta);
-  if (scene->time.theta < 0.5) table->Refuse("theta", fmt::format("is {}; give a number from 0.5 to 1", scene->time.theta));
+  scene->time.theta = table->Number("theta", Bound::kFinite, "(of the Moreau-Jean scheme)", scene->time.theta);
+  if (table->Has("theta")) scene->time.theta_line = table->Line("theta");
   table->Finish();
 }
 

@@ -24,7 +24,8 @@ namespace nscdd {
 struct TimeSettings {
   double dt = 0.0;  ///< [s]
   std::int64_t steps = 0;
-  double theta = 0.5;  ///< [-]
+  double theta = 0.5;  ///< [-] the solver knows its limits
+  int theta_line = 0;  ///< of the file; 0: not there
 };
 
 /// Bodies are periodic in x: centres live in [origin, origin + length).

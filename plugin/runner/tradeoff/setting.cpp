@@ -11,11 +11,6 @@
 namespace nscdd {
 namespace {
 
-bool HasOption(const nscdd_solver_info& solver, const std::string& name) {
-  return std::any_of(solver.options, solver.options + solver.option_count,
-                     [&](const nscdd_option& o) { return name == o.name; });
-}
-
 const nscdd_solver_info* FindSolver(const SolverRegistry& registry, const std::string& name) {
   for (const auto& entry : registry.entries()) {
     if (name == entry.info->name) return entry.info;
@@ -29,7 +24,7 @@ std::string Lack(const Setting& setting, const SolverRegistry& registry) {
   const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
   if (solver == nullptr) return fmt::format("the plugin has no solver '{}'", setting.solver);
   for (const auto& [key, value] : setting.options) {
-    if (!HasOption(*solver, key)) return fmt::format("solver '{}' has no option '{}'", setting.solver, key);
+    if (FindOption(*solver, key) == nullptr) return fmt::format("solver '{}' has no option '{}'", setting.solver, key);
   }
   return "";
 }
@@ -59,7 +54,7 @@ std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRe
   std::vector<std::pair<std::string, int>> lacks;
   for (Setting& setting : settings) {
     const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
-    if (solver != nullptr && !HasOption(*solver, "acceleration")) {
+    if (solver != nullptr && FindOption(*solver, "acceleration") == nullptr) {
       std::erase(setting.options, std::pair<std::string, std::string>{"acceleration", "none"});  // it has no other way
     }
     const std::string lack = Lack(setting, registry);
@@ -84,10 +79,8 @@ std::string GridOf(const Setting& setting, const SolverRegistry& registry) {
   const std::string own = setting.Option("subdomains");
   const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
   if (!own.empty() || solver == nullptr) return own.empty() ? "1x1" : own;
-  for (std::uint64_t i = 0; i < solver->option_count; ++i) {
-    if (solver->options[i].name == std::string("subdomains")) return solver->options[i].default_value;
-  }
-  return "1x1";
+  const nscdd_option* option = FindOption(*solver, "subdomains");
+  return option == nullptr ? "1x1" : option->default_value;
 }
 
 std::string SolverSection(const Setting& setting) {

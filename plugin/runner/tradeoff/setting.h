@@ -30,8 +30,9 @@ inline constexpr const char* kSceneSetting = "the scene's own";
 /// The settings that `nscdd tradeoff` measures by default.
 std::vector<Setting> DefaultSettings();
 
-/// [[settings]] of a TOML file: name, solver, substeps and, as in a scene's [solver], options. Throws Error with file and line.
-std::vector<Setting> ReadSettings(const std::filesystem::path& file);
+/// [[settings]] of a TOML file: name, solver, substeps and, as in a scene's [solver], options. Throws Error with file and line,
+/// also for values that a solver in `registry` refuses.
+std::vector<Setting> ReadSettings(const std::filesystem::path& file, const SolverRegistry& registry);
 
 /// Drops settings whose solver or option no loaded plugin has; one sentence each distinct reason is added to `notices`.
 std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRegistry& registry,

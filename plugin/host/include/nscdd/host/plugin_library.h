@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nscdd_plugin.h"
@@ -48,6 +49,9 @@ class PluginLibrary {
   void* library_ = nullptr;
   const nscdd_plugin* plugin_ = nullptr;
 };
+
+/// Null if the solver has no such option.
+const nscdd_option* FindOption(const nscdd_solver_info& solver, std::string_view name);
 
 /// Path of the plugin to load: `option` if not empty, else the environment variable NSCDD_PLUGIN, else the first that exists of
 /// libnscdd_solver.so in ../lib and in the library folder beside the program's own, and where this build was to be installed.

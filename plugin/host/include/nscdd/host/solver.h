@@ -85,4 +85,9 @@ class Solver {
   std::unique_ptr<nscdd_solver, Destroy> handle_;
 };
 
+/// Asks the plugin whether a solver takes a value of an option. Throws Error with its sentence if not. A plugin older than
+/// check_option (ABI minor 3) is asked by making a handle.
+void CheckOption(const std::shared_ptr<const PluginLibrary>& library, const std::string& solver, const std::string& option,
+                 const std::string& value);
+
 }  // namespace nscdd

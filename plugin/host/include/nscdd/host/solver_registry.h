@@ -28,6 +28,8 @@ class SolverRegistry {
   const Entry& Find(const std::string& solver) const;
   /// Makes a handle of arguments.solver.
   Solver Create(const SolverArguments& arguments) const;
+  /// Throws Error with the solver's sentence when it does not take this value of this option.
+  void CheckOption(const std::string& solver, const std::string& option, const std::string& value) const;
 
  private:
   std::vector<Entry> entries_;

@@ -7,22 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "option_table.h"
+#include "nscdd/option_table.h"
+#include "nscdd_plugin.h"
 
 namespace nscdd {
 
-/// A solver that the plugin offers: a name, the alternative of AlgorithmOptions that it stands for, and its options.
-struct SolverEntry {
-  std::string name;
-  std::string summary;  ///< one line
-  SolverSettings defaults;
-  std::vector<Option> options;
-};
-
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;  ///< name and value
-
-/// Constant; made at the first call.
-const std::vector<SolverEntry>& SolverTable();
 
 /// Throws Error, with the nearest name, if there is no such solver.
 const SolverEntry& FindSolver(std::string_view name);

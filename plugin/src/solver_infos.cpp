@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "solver_table.h"
+#include "solver_infos.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <type_traits>
 
 #include "nscdd/error.h"
 #include "option_text.h"
@@ -12,43 +13,12 @@
 namespace nscdd {
 namespace {
 
-/// Options of every solver, then the groups.
-template <class... Groups>
-std::vector<Option> Join(Groups... groups) {
-  std::vector<Option> all = CommonOptions();
-  (all.insert(all.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end())), ...);
-  return all;
-}
-
-std::vector<SolverEntry> MakeTable() {
-  return {
-      {"nscd",
-       "NonSmooth Contact Dynamics: nonlinear Gauss-Seidel sweeps over all contacts, one subdomain",
-       {{}, NscdOptions{}},
-       Join(AccelerationTable())},
-      {"nscdd",
-       "NSCD with domain decomposition: sweeps in each subdomain, then the mean velocity of each interface body",
-       {{}, NscddOptions{}},
-       Join(PartitionOptionTable(), StageOptions(), AccelerationTable())},
-      {"fea",
-       "fully enriched algorithm: nscdd with the augmented interface problem (lambda) after every sweep",
-       {{}, FeaOptions{}},
-       Join(PartitionOptionTable(), StageOptions(), InterfaceOptions(), AccelerationTable(), FeaOptionTable())},
-      {"rea",
-       "relaxed enriched algorithm: iterates until the interface agrees, then solves each subdomain by itself",
-       {{}, ReaOptions{}},
-       Join(PartitionOptionTable(), StageOptions(), InterfaceOptions(), ReaOptionTable())},
-      {"iea",
-       "incomplete enriched algorithm: one augmented interface problem a step, then each subdomain by itself",
-       {{}, IeaOptions{}},
-       Join(PartitionOptionTable(), InterfaceOptions(), IeaOptionTable())},
-      {"newton",
-       "high accuracy with friction: interior point iterations, one sparse factorisation each, and plain sweeps beside them; "
-       "one subdomain",
-       {{}, NewtonOptions{}},
-       Join(NewtonOptionTable())},
-  };
-}
+// nscdd_type counts the alternatives of OptionValue.
+template <nscdd_type type>
+using Alternative = std::variant_alternative_t<type, OptionValue>;
+static_assert(std::is_same_v<Alternative<NSCDD_BOOL>, bool> && std::is_same_v<Alternative<NSCDD_INTEGER>, int> &&
+              std::is_same_v<Alternative<NSCDD_REAL>, double> && std::is_same_v<Alternative<NSCDD_CHOICE>, WordIndex> &&
+              std::is_same_v<Alternative<NSCDD_GRID>, GridSize> && std::variant_size_v<OptionValue> == 5);
 
 template <class Entry>
 std::vector<std::string> Names(const std::vector<Entry>& entries) {
@@ -81,35 +51,34 @@ std::string Suggestion(std::string_view name, const std::vector<std::string>& na
 
 // C structures that point into the (constant) table.
 struct InfoMirror {
-  std::vector<std::vector<std::string>> defaults;
+  std::vector<std::vector<std::string>> defaults, choices;
   std::vector<std::vector<nscdd_option>> options;
   std::vector<nscdd_solver_info> solvers;
 
   InfoMirror() {
     for (const SolverEntry& solver : SolverTable()) {
-      std::vector<std::string>& texts = defaults.emplace_back();
-      for (const Option& option : solver.options) texts.push_back(option.print(solver.defaults));
+      std::vector<std::string>&texts = defaults.emplace_back(), &words = choices.emplace_back();
+      for (const Option& option : solver.options) {
+        texts.push_back(TextOf(option, option.get(solver.defaults)));
+        words.push_back(fmt::format("{}", fmt::join(option.words, "|")));
+      }
     }
-    for (std::size_t s = 0; s < SolverTable().size(); ++s) AddSolver(SolverTable()[s], defaults[s]);
+    for (std::size_t s = 0; s < SolverTable().size(); ++s) AddSolver(SolverTable()[s], defaults[s], choices[s]);
     for (std::size_t s = 0; s < SolverTable().size(); ++s) solvers[s].options = options[s].data();
   }
 
-  void AddSolver(const SolverEntry& solver, const std::vector<std::string>& texts) {
+  void AddSolver(const SolverEntry& solver, const std::vector<std::string>& texts, const std::vector<std::string>& words) {
     std::vector<nscdd_option>& list = options.emplace_back();
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const Option& o = solver.options[i];
-      list.push_back({o.name.c_str(), o.type, 0, texts[i].c_str(), o.unit.c_str(), o.choices.c_str(), o.help.c_str()});
+      const auto type = static_cast<nscdd_type>(o.get(solver.defaults).index());
+      list.push_back({o.name.c_str(), type, 0, texts[i].c_str(), o.unit.c_str(), words[i].c_str(), o.help.c_str()});
     }
     solvers.push_back({solver.name.c_str(), solver.summary.c_str(), list.size(), nullptr});
   }
 };
 
 }  // namespace
-
-const std::vector<SolverEntry>& SolverTable() {
-  static const std::vector<SolverEntry> table = MakeTable();
-  return table;
-}
 
 const SolverEntry& FindSolver(std::string_view name) {
   const SolverEntry* solver = Find(SolverTable(), name);
@@ -127,8 +96,9 @@ SolverSettings MakeSettings(const SolverEntry& solver, const OptionTexts& texts)
     if (std::any_of(texts.begin(), texts.begin() + static_cast<std::ptrdiff_t>(i), same)) {
       throw Error(fmt::format("option '{}' is given twice; give it once", name));
     }
-    option->set(value, &settings);
+    option->set(ParseOption(*option, value, option->get(settings)), &settings);
   }
+  CheckSettings(settings);
   return settings;
 }
 
