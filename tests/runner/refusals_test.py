@@ -50,6 +50,10 @@ class Refusals(ProgramTest):
                            .replace('"nscd"', '"nscdd"\nsubdomains=[2,1]'))
         self.expect(["radius"], "run", scene, ranks=2)
 
+    def test_settings_of_a_tradeoff(self):
+        settings = self.write("bad.toml", '[[settings]]\nname = "a"\nsolver = "nscd"\ntolerance = -1.0\n')
+        self.expect(["bad.toml:4", "tolerance", ">= 0"], "tradeoff", self.write("test.toml", TWO_DISKS), "--settings", settings)
+
     def test_no_bodies(self):
         scene = self.write("bad.toml", '[scene]\nname = "x"\n[time]\ndt = 0.1\nsteps = 1\n')
         self.expect(["bod"], "run", scene)
