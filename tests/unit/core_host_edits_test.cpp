@@ -115,7 +115,7 @@ TEST(Options, ImpossibleOnesAreRefused) {
     });
   };
   EXPECT_EQ(refusal({}, NscdOptions{}), "");
-  ExpectContains(refusal({.theta = 0.4}, NscdOptions{}), "theta is 0.4");
+  ExpectContains(refusal({.theta = 0.4}, NscdOptions{}), "option 'theta' is '0.4'");
   ExpectContains(refusal({.feedback_beta = 1.5}, NscdOptions{}), "feedback_beta");
   ExpectContains(refusal({.feedback_slop = -1.0}, NscdOptions{}), "feedback_slop");
   ExpectContains(refusal({.alert_distance = std::nan("")}, NscdOptions{}), "alert_distance");
