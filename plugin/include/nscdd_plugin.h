@@ -241,6 +241,10 @@ typedef struct nscdd_report {
   double seconds_interface;
   int64_t extrapolations;
   int64_t acceleration_restarts; /* the last one of minors 0 to 2 */
+  double power;
+  double load_error;
+  double wall_error;
+  double imbalance;
 } nscdd_report;
 
 /* A column of a table: `count` numbers of 8 bytes each, real (double) or integer (int64_t). */

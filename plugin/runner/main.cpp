@@ -149,8 +149,10 @@ class Program {
     CLI::App* solve = app_.add_subcommand("solve", "Solve one contact problem (JSON) and print its solution (JSON)");
     solve->add_option("problem", run_.scene, "Problem file")->required();
     AddSolverOptions(solve, &run_.solver);
+    solve->add_flag("--self-stress", self_stress_,
+                    "Print the share of the impulses that changes no velocity, undetermined_share");
     OnRoot(solve, [this] {
-      Solve(run_.scene, run_.solver);
+      Solve(run_.scene, run_.solver, self_stress_);
       return 0;
     });
   }
@@ -238,6 +240,7 @@ class Program {
   const MpiSession& session_;
   CLI::App app_{"nscdd: contact dynamics of dense packings of disks, by domain decomposition"};
   RunRequest run_;
+  bool self_stress_ = false;
   ExportRequest export_;
   TradeoffRequest tradeoff_;
   RenderRequest render_;

@@ -5,6 +5,7 @@ which change no velocity and which a warm start would keep."""
 import unittest
 
 import h5py
+import self_stress
 from program import ProgramTest, nscdd
 
 PILE = """
@@ -58,6 +59,16 @@ class SelfStress(ProgramTest):
                 plain, fast = (self.side_impulse(name, a, *arguments) for a in ("none", "anderson"))
                 self.assertLess(fast, 1.25 * plain)
                 self.assertGreater(fast, 0.8 * plain)
+
+    def test_single_steps(self):
+        """A short version of self_stress.py."""
+        worst = self_stress.measure(3, ["1e-4", "1e-6"], settle=200)
+        self.assertEqual(len(worst), 6)
+        for key, (norm, walls, count) in worst.items():
+            with self.subTest(key):
+                self.assertEqual(count, 3)
+                self.assertLess(norm, self_stress.BOUND)
+                self.assertLess(walls, self_stress.BOUND)
 
 
 if __name__ == "__main__":

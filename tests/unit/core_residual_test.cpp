@@ -152,7 +152,7 @@ Vec2 Project(double zn, double zt, double mu) {
 }
 
 struct Expected {
-  double e2 = 0, r2 = 0, worst = 0;
+  double e2 = 0, r2 = 0, worst = 0, power = 0, load = 0;
   std::size_t worst_contact = 0;
 };
 
@@ -167,6 +167,9 @@ Expected Literal(const RandomCase& r) {
                             : Project(rn - rho * (k.vn + b), 0.0, 0.0);
     out.e2 += (rn - p.x) * (rn - p.x) + (rt - p.y) * (rt - p.y);
     out.r2 += rn * rn + rt * rt;
+    const double u = k.vn + b, dissipated = rt * k.vt + mu * rn * std::fabs(k.vt);
+    out.power += (u < 0.0 ? -u * std::max(rn, -u / k.wnn) : u * rn) + dissipated;
+    out.load += rn * u + (std::fabs(rt) < mu * rn ? rt * k.vt : dissipated);
     const double en = std::fabs(std::min(k.vn + b, k.wnn * rn));
     const double bound = k.wtt * mu * std::max(rn, 0.0), z = k.wtt * rt - k.vt;
     const double et = std::fabs(k.wtt * rt - (z > bound ? bound : z < -bound ? -bound : z));
@@ -191,6 +194,8 @@ TEST_P(Residual, IsTheLiteralFormula) {
     const NaturalParts part = NaturalResidual(r.sample.problem.subdomains[e], r.states[e]);
     total.sum_e2 += part.sum_e2;
     total.sum_r2 += part.sum_r2;
+    total.sum_power += part.sum_power;
+    total.sum_load += part.sum_load;
     if (part.worst > total.worst) {
       total.worst = part.worst;
       total.worst_contact = part.worst_contact;
@@ -198,6 +203,8 @@ TEST_P(Residual, IsTheLiteralFormula) {
   }
   EXPECT_NEAR(total.sum_e2, expected.e2, 1e-12 * expected.e2);
   EXPECT_NEAR(total.sum_r2, expected.r2, 1e-12 * expected.r2);
+  EXPECT_NEAR(total.sum_power, expected.power, 1e-12 * expected.power);
+  EXPECT_NEAR(total.sum_load, expected.load, 1e-12 * expected.power);
   EXPECT_NEAR(total.worst, expected.worst, 1e-12 * expected.worst);
   EXPECT_EQ(total.worst_contact, static_cast<std::int64_t>(expected.worst_contact));
   const ResidualScales scales{3.0, 0.25, 1.0};

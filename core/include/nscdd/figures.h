@@ -85,5 +85,11 @@ struct Figure {
   SOLVE(std::int64_t, subdomains, kMemo, "-", "of the grid") \
   SOLVE(std::int64_t, extrapolations, kMemo, "-", "of the acceleration") \
   SOLVE(std::int64_t, acceleration_restarts, kMemo, "-", "times that it forgot its history because the residual had grown") \
-  SOLVE(std::int64_t, analyses, kMemo, "-", "symbolic factorisations")
+  SOLVE(std::int64_t, analyses, kMemo, "-", "symbolic factorisations") \
+  RESIDUAL(double, power, kResult, "-", "P: power of what is violated, over all that the contacts do") \
+  RESIDUAL(double, load_error, kResult, "-", \
+           "part of the loads that has not arrived where it is borne; in a pile at rest, of its weight") \
+  RESIDUAL(double, wall_error, kResult, "N s", "estimate from above of the error of the impulse on all prescribed bodies") \
+  SOLVE(double, imbalance, kResult, "-", \
+        "momentum that the worst body has out of nothing, over the largest of its mass times the velocity scale and its impulses")
 // clang-format on

@@ -21,7 +21,7 @@ struct StoppingOptions {
   Criterion criterion = Criterion::kNat;
   double tolerance = 1e-4;       ///< [-] of the criterion; 0: make max_iterations iterations, status "fixed"
   int max_iterations = 10000;    ///< sweeps (NSCD) or interface updates (NSCDD)
-  int test_every = 5;            ///< iterations between two tests; a test costs about one sweep
+  int test_every = 5;            ///< iterations between two tests; one costs about a sweep, and serves the acceleration
   int stall_iterations = 20000;  ///< "stalled" when the residual has found no new minimum for so many iterations
 };
 

@@ -26,12 +26,17 @@ struct StatusWord {
 
 /// By SolveStatus.
 inline constexpr std::array kStatuses = {
-    StatusWord{"converged", true, "the criterion fell below its tolerance, or there was no contact"},
+    StatusWord{"converged", true,
+               "the criterion is below its tolerance, load_error and power below their bounds, or there was no contact"},
     StatusWord{"iteration_limit", false, "max_iterations reached first"},
-    StatusWord{"stalled", false,
-               "no new minimum of the residual for stall_iterations iterations, or no further step was possible"},
-    StatusWord{"diverged", false,
-               "the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1"},
+    StatusWord{
+        "stalled", false,
+        "no new minimum of what is tested for stall_iterations iterations (1000 where power is above 10), or no further step "
+        "was possible"},
+    StatusWord{
+        "diverged", false,
+        "the residual, or nat_max, is not finite, or above 1e6 times the first one and (nat_max: 1e6) above 1; rea, iea: no "
+        "solution was found, power is above 10"},
     StatusWord{"incomplete", true,
                "an incomplete resolution (rea, iea) did all that it does; the criterion does not hold for the whole sample"},
     StatusWord{"fixed", true, "tolerance 0: it made the max_iterations iterations that it was asked for"},
@@ -74,6 +79,7 @@ struct IterationRecord {
 struct SolveReport {
   NSCDD_FIGURES(NSCDD_NO_FIGURE, NSCDD_FIGURE, NSCDD_NO_FIGURE)
   Residuals residuals;
+  std::vector<std::int64_t> squeezed;  ///< ids of bodies that have no room (power > 10), ascending, at most 64
   std::vector<IterationRecord> history;
 };
 

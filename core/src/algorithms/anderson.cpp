@@ -220,7 +220,7 @@ void Anderson::Combine(Part* part, const std::vector<double>& c) const {
   }
 }
 
-void Anderson::Extrapolate(int iteration, PartitionedState* state) {
+void Anderson::Extrapolate(int iteration, PartitionedState* state, double scale) {
   if (depth_ == 0 || iteration % every_ != 0) return;
   // Safeguard first: a residual that has grown says that the differences mislead.
   const Products products = TakeImage(*state);
@@ -238,11 +238,12 @@ void Anderson::Extrapolate(int iteration, PartitionedState* state) {
   // Without differences the next start is the image itself, which `state` is already.
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     Combine(&parts_[e], c);
-    if (!extrapolates) continue;
+    if (!extrapolates && scale == 1.0) continue;
+    for (double& s : parts_[e].start) s *= scale;
     VisitRows(problem_.subdomains[e], [&](const auto& rows) { ClipToCones(rows, parts_[e].start.data()); });
     Unpack(e, state);
   }
-  if (!extrapolates) return;
+  if (!extrapolates && scale == 1.0) return;
   ++extrapolations_;
   gluing_->SubtractImpulse(state->interface, &state->subdomains);
 }

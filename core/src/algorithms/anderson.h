@@ -20,6 +20,9 @@ namespace nscdd {
 ///     next s = g - sum c_i dg_i,   c = argmin |f - sum c_i df_i|,   r then clipped to |r_t| <= mu r_n, r_n >= 0
 /// Safeguards: where |f| has grown the differences are forgotten and next s = g; and sum |c_i| |dg_i| <= reach |f|, or impulses
 /// grow along self-stresses, which no velocity sees. The swept state g is what is measured and returned.
+///
+/// Sweeps carry a load to the ground slowly: after a test the next start is multiplied by 1 - S (residual.h), the maximum of the
+/// dual energy along r. Whatever the start, (s, g) is one more pair of the history.
 class Anderson {
  public:
   static constexpr int kMaxDepth = 8;
@@ -29,8 +32,8 @@ class Anderson {
            Communicator* communicator, const PartitionedState& start);
 
   /// After iteration `iteration` (from 1), every options.every of them: `state` becomes the start of the next one. Collective,
-  /// one reduction of depth + 3 numbers.
-  void Extrapolate(int iteration, PartitionedState* state);
+  /// one reduction of depth + 3 numbers. `scale` multiplies the start.
+  void Extrapolate(int iteration, PartitionedState* state, double scale = 1.0);
 
   /// Adds its work to the report.
   SolveReport Close(SolveReport report) const;

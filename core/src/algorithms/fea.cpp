@@ -41,6 +41,7 @@ SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, 
     return Solve(problem, plain, communicator, workspace, state);
   }
   Monitor monitor(problem, options.stopping, communicator, /*keep_best=*/true);
+  monitor.Begin(*state);
   Stages stages(problem, options.interface, communicator, workspace, state);
   Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   JumpGuard guard;
@@ -56,8 +57,8 @@ SolveReport Solve(const PartitionedProblem& problem, const FeaOptions& options, 
       stages.SwapMeans();
       guard.Watch(k, monitor.residuals().interface_jump);
     }
-    stages.UpdateInterface(options.jump_guard && guard.IsPlain(k));  // stage 2, lines 4 and 5: eq. (13)
-    anderson.Extrapolate(k, state);                                  // not in the paper
+    stages.UpdateInterface(options.jump_guard && guard.IsPlain(k));   // stage 2, lines 4 and 5: eq. (13)
+    anderson.Extrapolate(k, state, due ? monitor.LoadScale() : 1.0);  // not in the paper
   }
   return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));
 }

@@ -52,7 +52,7 @@ SolveReport Solve(const PartitionedProblem& problem, const IeaOptions& options, 
     closing.stopping.max_iterations = options.closing_updates;
     SolveReport report = Solve(problem, closing, communicator, workspace, state);
     const bool at_limit = report.status == SolveStatus::kIterationLimit || report.status == SolveStatus::kFixed;
-    if (at_limit) report.status = SolveStatus::kIncomplete;
+    if (at_limit && report.squeezed.empty()) report.status = SolveStatus::kIncomplete;
     report.iterations += local.sweeps;
     report.sweeps += sweeps;
     return stages.Close(std::move(report));

@@ -21,6 +21,9 @@ class Monitor {
   Monitor(const PartitionedProblem& problem, const StoppingOptions& options, Communicator* communicator,
           bool keep_best = false);
 
+  /// Before the first iteration: load_error then sees what iterations still change. Collective.
+  void Begin(const PartitionedState& state);
+
   /// Whether this iteration is tested (then sweep it with statistics).
   bool IsDue(int iteration) const { return iteration % options_.test_every == 0 || iteration >= options_.max_iterations; }
 
@@ -41,6 +44,8 @@ class Monitor {
 
   /// Ends an iteration that cannot go on: the status is stalled.
   void GiveUp(std::string reason) { Stop(SolveStatus::kStalled, std::move(reason)); }
+  /// 1 - S of the last test (in [1/2, 2]): with that factor of all impulses the load_error would vanish.
+  double LoadScale() const;
   const Residuals& residuals() const { return report_.residuals; }
 
   /// The report, with counts of the final state: that of the last test, or the best one kept if it was better. Where the
@@ -50,8 +55,11 @@ class Monitor {
  private:
   void MeasureAll(const std::vector<SweepStatistics>& statistics, const std::vector<JumpPart>& jumps,
                   const PartitionedState& state);
+  void SeeDrift(int iteration);
   void Stop(SolveStatus status, std::string reason);
   double CriterionNow() const;
+  std::string Standing() const;
+  bool IsSqueezed() const;
   std::string ReasonOfSuccess() const;
   void KeepBest(const PartitionedState& state);
   void RestoreBest(PartitionedState* state);
@@ -59,13 +67,20 @@ class Monitor {
   void CountContacts(const PartitionedState& state);
   void FindWorst();
 
+  struct TestedMomentum {
+    int iteration;
+    Vec2 momentum;  // sum of M (V - V_f) [N s]
+  };
+
   const PartitionedProblem& problem_;
   StoppingOptions options_;
   Communicator* communicator_;
   SolveReport report_;
-  NaturalParts worst_;           // of this rank's subdomains
-  double first_ = -1.0;          // measure at the first test
-  double first_nat_max_ = -1.0;  // at the first measurement; < 0: none yet
+  NaturalParts total_;                   // of all subdomains, at the last measurement
+  std::vector<TestedMomentum> momenta_;  // of all tests; empty without Begin()
+  NaturalParts worst_;                   // of this rank's subdomains
+  double first_ = -1.0;                  // what was tested at the first test
+  double first_nat_max_ = -1.0;          // at the first measurement; < 0: none yet
   double best_ = 0.0;
   int best_iteration_ = 0;
   bool keep_best_;

@@ -55,9 +55,9 @@ class NewtonSolve {
 
   /// What the criterion measures.
   double Residual(const PartitionedState& state) const {
-    const NaturalParts n = NaturalResidual(sample_, state.subdomains.front());
-    if (options_.stopping.criterion == Criterion::kNatMax) return NatMax(n.worst, problem_.scales);
-    return Nat(n.sum_e2, n.sum_r2, problem_.scales);
+    Residuals residuals;
+    SetNatural(NaturalResidual(sample_, state.subdomains.front()), problem_.scales, &residuals);
+    return Measure(options_.stopping, residuals);
   }
 
   /// Which path is followed past a fold depends on the pace; none is best for all problems.

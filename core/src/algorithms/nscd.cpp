@@ -9,6 +9,7 @@ namespace nscdd {
 SolveReport Solve(const PartitionedProblem& problem, const NscdOptions& options, Communicator* communicator,
                   InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator, options.acceleration.method != Acceleration::kNone);
+  monitor.Begin(*state);
   Stages stages(problem, communicator, state);
   Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   int k = 1;
@@ -16,7 +17,7 @@ SolveReport Solve(const PartitionedProblem& problem, const NscdOptions& options,
     const bool due = monitor.IsDue(k);
     stages.SweepSubdomains(1, due);
     if (due && monitor.Stops(k, stages.statistics(), {}, *state)) break;
-    anderson.Extrapolate(k, state);  // not in the paper
+    anderson.Extrapolate(k, state, due ? monitor.LoadScale() : 1.0);  // not in the paper
   }
   return stages.Close(anderson.Close(monitor.Finish(k, k, state)));
 }

@@ -10,6 +10,7 @@ namespace nscdd {
 SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options, Communicator* communicator,
                   InterfaceWorkspace*, PartitionedState* state) {
   Monitor monitor(problem, options.stopping, communicator, options.acceleration.method != Acceleration::kNone);
+  monitor.Begin(*state);
   Stages stages(problem, communicator, state);
   Anderson anderson(problem, options.acceleration, stages.gluing(), communicator, *state);
   int k = 1;
@@ -21,7 +22,7 @@ SolveReport Solve(const PartitionedProblem& problem, const NscddOptions& options
     stages.MeasureJump();
     stages.UpdateInterface();
     if (due && monitor.Stops(k, stages.statistics(), stages.jumps(), *state)) break;  // line 4
-    anderson.Extrapolate(k, state);                                                   // not in the paper
+    anderson.Extrapolate(k, state, due ? monitor.LoadScale() : 1.0);                  // not in the paper
   }
   return stages.Close(anderson.Close(monitor.Finish(k, static_cast<std::int64_t>(k) * options.sweeps_per_stage, state)));
 }

@@ -65,8 +65,7 @@ bool Stages::SolveSubdomain(std::size_t e, const StoppingOptions& stopping, int*
     const StagnationMeasures s = Stagnation(statistics_[e], problem_.scales);
     const NaturalParts n = NaturalResidual(problem, *state, Masses::kDivided);
     Residuals r;
-    r.nat = Nat(n.sum_e2, n.sum_r2, problem_.scales);
-    r.nat_max = NatMax(n.worst, problem_.scales);
+    SetNatural(n, problem_.scales, &r);
     r.quad = s.quad;
     r.maxm = s.maxm;
     r.qm16 = s.qm16;

@@ -44,7 +44,10 @@ void ForgetValues(InterfaceWorkspace* workspace) {
 
 AugmentedInterface::AugmentedInterface(const PartitionedProblem& problem, const AugmentedInterfaceOptions& options,
                                        Communicator* communicator, InterfaceWorkspace* workspace)
-    : problem_(problem), options_(options), workspace_(workspace) {
+    : problem_(problem),
+      options_(options),
+      workspace_(workspace),
+      average_(problem.interface, AugmentedSubdomain::DofsFor(problem.model, options.compatibility), communicator) {
   ForgetValues(workspace);
   const double mass = options.reference_mass > 0.0 ? options.reference_mass : problem.mean_mass;
   for (const SubdomainProblem& p : problem.subdomains)
@@ -86,6 +89,8 @@ void AugmentedInterface::Update(const Gluing& gluing, const std::vector<std::vec
       const double* from = &y[copy.problem][dofs * parts_[copy.problem].NodeOf(copy.body)];
       for (int d = 0; d < dofs; ++d) change[dofs * k + d] = from[d];
     }
+    // sum_E dF_E = 0 holds to the rounding of lambda; what is left would be momentum out of nothing.
+    average_.Project(&change);
   } else {
     change = cg_->Solve(y);
     counters_.cg_iterations += cg_->iterations();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interface/augmented_subdomain.h"
+#include "interface/copy_average.h"
 #include "interface/gluing.h"
 #include "linear/kept_solver.h"
 #include "nscdd/communicator.h"
@@ -64,6 +65,7 @@ class AugmentedInterface {
   std::vector<AugmentedSubdomain> parts_;
   std::unique_ptr<Direct> direct_;
   std::unique_ptr<ConjugateGradient> cg_;
+  CopyAverage average_;
   InterfaceCounters counters_;
 };
 

@@ -47,7 +47,10 @@ class SharedMumps final : public LinearSolver {
 
 void RefuseMatrix(Symmetry symmetry) {
   if (symmetry == Symmetry::kGeneral) throw Error("the matrix is singular, or not finite, to working precision");
-  throw Error("the matrix is not positive definite and finite to working precision; choose a smaller lambda or reference_mass");
+  throw Error(
+      "the matrix is not positive definite and finite to working precision: lambda times the reference mass is too far above "
+      "the "
+      "mass of the lightest body in contact; choose a smaller lambda or reference_mass, or lambda_scale = \"contact\"");
 }
 
 std::unique_ptr<LinearSolver> MakeLocalSolver(LinearLibrary library, Symmetry symmetry) {

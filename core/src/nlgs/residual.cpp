@@ -30,6 +30,12 @@ double Friction(const Row& c) {
   return 0.0;
 }
 
+/// p_c of residual.h [J].
+double ViolatedPower(const Delassus& w, double u, double mu, Local r, Local v) {
+  const double normal = u < 0.0 ? -u * Larger(r.n, -u / w.nn) : u * r.n;
+  return normal + r.t * v.t + mu * r.n * std::abs(v.t);
+}
+
 /// Adds one contact; returns its error in velocity units.
 double AddContact(const Delassus& w, double offset, double mu, Local r, Local v, NaturalParts* parts) {
   // De Saxce's shift mu |v_t| of the normal velocity makes the law of friction a projection on one cone.
@@ -39,6 +45,9 @@ double AddContact(const Delassus& w, double offset, double mu, Local r, Local v,
   const double en = r.n - p.n, et = r.t - p.t;
   parts->sum_e2 += en * en + et * et;
   parts->sum_r2 += r.n * r.n + r.t * r.t;
+  const bool slides = std::abs(r.t) >= mu * r.n;
+  parts->sum_power += ViolatedPower(w, gap_speed, mu, r, v);
+  parts->sum_load += r.n * gap_speed + r.t * v.t + (slides ? mu * r.n * std::abs(v.t) : 0.0);
   const double normal = std::abs(Smaller(gap_speed, w.nn * r.n));
   if (mu == 0.0) return Larger(normal, w.tt * std::abs(r.t));
   const double bound = w.tt * mu * std::max(r.n, 0.0);
@@ -46,8 +55,9 @@ double AddContact(const Delassus& w, double offset, double mu, Local r, Local v,
   return Larger(normal, tangent);
 }
 
-template <bool kShared, class Row>
-void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const SubdomainState& state, NaturalParts* parts) {
+/// Calls visit(k, row, W, r, v) for each contact, W of whole masses where `kShared`.
+template <bool kShared, class Row, class Visit>
+void VisitContacts(const SubdomainProblem& p, const std::vector<Row>& rows, const SubdomainState& state, Visit visit) {
   constexpr int kDofs = Dofs(Row::kModel), kUnknowns = Unknowns(Row::kModel), kInertias = Inertias(Row::kModel);
   const double* impulse = state.impulse.data();
   for (std::size_t k = 0; k < rows.size(); ++k, impulse += kUnknowns) {
@@ -58,10 +68,33 @@ void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const Subd
     const Delassus w = DelassusBlock(c, &p.inverse_mass[kInertias * c.a], &p.inverse_mass[kInertias * c.b], share_a, share_b);
     const Local v = RelativeVelocity(c, &state.velocity[kDofs * c.a], &state.velocity[kDofs * c.b]);
     const Local r{impulse[0], kUnknowns == 2 ? impulse[kUnknowns - 1] : 0.0};
+    visit(k, c, w, r, v);
+  }
+}
+
+template <bool kShared, class Row>
+void AddRows(const SubdomainProblem& p, const std::vector<Row>& rows, const SubdomainState& state, NaturalParts* parts) {
+  VisitContacts<kShared>(p, rows, state, [&](std::size_t k, const Row& c, const Delassus& w, Local r, Local v) {
     const double error = AddContact(w, c.offset, Friction(c), r, v, parts);
     if (Exceeds(error, parts->worst)) {
       parts->worst = error;
       parts->worst_contact = p.contact[k];
+    }
+  });
+}
+
+/// |V - V_f|_M^2 and the mass; copies that agree add up to their body.
+void AddBodies(const SubdomainProblem& p, const SubdomainState& state, NaturalParts* parts) {
+  const int dofs = Dofs(p.model);
+  for (std::size_t i = 0; i < p.body_count(); ++i) {
+    const double* inverse = &p.inverse_mass[(dofs - 1) * i];
+    if (inverse[0] == 0.0) continue;
+    parts->sum_mass += 1.0 / inverse[0];
+    parts->sum_x += (state.velocity[dofs * i] - p.free_velocity[dofs * i]) / inverse[0];
+    parts->sum_y += (state.velocity[dofs * i + 1] - p.free_velocity[dofs * i + 1]) / inverse[0];
+    for (int d = 0; d < dofs; ++d) {
+      const double change = state.velocity[dofs * i + d] - p.free_velocity[dofs * i + d];
+      parts->sum_change += change * change / inverse[d == 2];
     }
   }
 }
@@ -77,7 +110,18 @@ NaturalParts NaturalResidual(const SubdomainProblem& problem, const SubdomainSta
       AddRows<true>(problem, rows, state, &parts);
     }
   });
+  AddBodies(problem, state, &parts);
   return parts;
+}
+
+std::vector<double> ViolatedPowers(const SubdomainProblem& problem, const SubdomainState& state) {
+  std::vector<double> powers(problem.contact_count());
+  VisitRows(problem, [&](const auto& rows) {
+    VisitContacts<false>(problem, rows, state, [&](std::size_t k, const auto& c, const Delassus& w, Local r, Local v) {
+      powers[k] = ViolatedPower(w, v.n + c.offset, Friction(c), r, v);
+    });
+  });
+  return powers;
 }
 
 double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) {
@@ -89,6 +133,24 @@ double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) {
 double NatMax(double worst, const ResidualScales& scales) {
   if (scales.velocity == 0.0) return std::isfinite(worst) ? 0.0 : worst;
   return worst / scales.velocity;
+}
+
+double ChangeEnergy(const NaturalParts& parts, const ResidualScales& scales) {
+  return Larger(parts.sum_change, 1e-6 * scales.exchange);
+}
+
+double ImpulseScale(const NaturalParts& parts, const ResidualScales& scales) {
+  return std::sqrt(ChangeEnergy(parts, scales) * parts.sum_mass);
+}
+
+void SetNatural(const NaturalParts& parts, const ResidualScales& scales, Residuals* residuals) {
+  residuals->nat = Nat(parts.sum_e2, parts.sum_r2, scales);
+  residuals->nat_max = NatMax(parts.worst, scales);
+  const double change = ChangeEnergy(parts, scales);
+  const auto over_change = [&](double sum) { return sum == 0.0 ? 0.0 : sum / change; };
+  residuals->power = over_change(parts.sum_power);
+  residuals->load_error = std::abs(over_change(parts.sum_load));
+  residuals->wall_error = (residuals->load_error + residuals->power) * ImpulseScale(parts, scales);
 }
 
 StagnationMeasures Stagnation(const SweepStatistics& s, const ResidualScales& scales) {
@@ -117,6 +179,20 @@ double Measure(Criterion criterion, const Residuals& residuals) {
       break;
   }
   return residuals.qm16;
+}
+
+Bounds BoundsOf(const StoppingOptions& options) {
+  if (options.criterion != Criterion::kNat && options.criterion != Criterion::kNatMax) return {1.0, INFINITY};
+  const double load_error = std::clamp(8.0 * options.tolerance, 0.008, 0.08);
+  return {std::min(1.0, 25.0 * load_error), load_error};
+}
+
+double Measure(const StoppingOptions& options, const Residuals& residuals) {
+  const double criterion = Measure(options.criterion, residuals);
+  if (options.tolerance == 0.0) return criterion;
+  const Bounds bounds = BoundsOf(options);
+  const double beside = Larger(residuals.power / bounds.power, residuals.load_error / bounds.load_error);
+  return Larger(criterion, options.tolerance * beside);
 }
 
 }  // namespace nscdd

@@ -15,6 +15,8 @@ struct ResidualScales {
   double impulse = 0.0;   ///< ||dt f||_2 over free bodies, translations [N s]
   double velocity = 0.0;  ///< max(largest |f| dt / m, largest approach speed, largest -b_n) [m/s]
   double energy = 0.0;    ///< sum of |dt f|^2 / m [J]
+  double exchange = 0.0;  ///< max(energy and sum of (dt torque)^2 / I, sum over contacts of m' v^2) [J]: v is the speed of
+                          ///< approach or recovery, 1 / m' = 1 / m_a + 1 / m_b
 };
 
 /// One step's problem, this rank's part: constant during a solve.

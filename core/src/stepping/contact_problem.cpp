@@ -116,9 +116,9 @@ void Assemble(const ContactProblem& p, Communicator* communicator, Assembly* out
   std::vector<ProblemPart> parts(chosen.rows.size());
   // The loads come as impulses dt f: those of a step of 1 s. They serve as scales, which are of no one subdomain.
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
-    if (is_free(static_cast<std::int32_t>(i))) AddBody(p.mass[i], 0.0, p.impulse[i], 1.0, &parts.front());
+    if (is_free(static_cast<std::int32_t>(i))) AddBody(p.mass[i], p.inertia[i], 0.0, p.impulse[i], 1.0, &parts.front());
   }
-  AddContacts(chosen, out->columns, &parts);
+  AddContacts(chosen, p.contacts, out->columns, &parts);
   const ProblemTotals totals = ReduceTotals(std::move(parts), RequiredModel(tables), communicator);
   out->problem = AssembleProblem(tables, out->body_id, chosen, totals, Blocks(static_cast<int>(chosen.rows.size()), 1), 0);
 }

@@ -33,15 +33,17 @@ StepColumns MakeColumns(const BodyTable& bodies, const ContactTable& contacts, c
   return columns;
 }
 
-void AddBody(double mass, double radius, const Wrench& force, double dt, ProblemPart* part) {
+void AddBody(double mass, double inertia, double radius, const Wrench& force, double dt, ProblemPart* part) {
   const double inverse_mass = 1.0 / mass;
+  const double turn = std::abs(dt * force.torque);
   const double load2 = dt * dt * (force.fx * force.fx + force.fy * force.fy);
   part->sum.load2 += load2;
   part->sum.energy += load2 * inverse_mass;
+  part->sum.turning_energy += turn * turn / inertia;
   part->sum.bodies += 1.0;
   part->sum.radius += radius;
   part->sum.mass += mass;
-  part->max.load_speed = std::max(part->max.load_speed, std::sqrt(load2) * inverse_mass);
+  part->max.load_speed = std::max({part->max.load_speed, std::sqrt(load2) * inverse_mass, turn / std::sqrt(mass * inertia)});
 }
 
 std::vector<ProblemPart> PartsOfBodies(const Population& population, std::span<const std::int32_t> home,
@@ -50,18 +52,22 @@ std::vector<ProblemPart> PartsOfBodies(const Population& population, std::span<c
   const BodyTable& t = population.bodies;
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (t.kind[i] != BodyKind::kFree || population.owner[i] != rank) continue;
-    AddBody(t.mass[i], t.radius[i], t.force[i], dt, &parts[home[i] - chosen.first]);
+    AddBody(t.mass[i], t.inertia[i], t.radius[i], t.force[i], dt, &parts[home[i] - chosen.first]);
   }
   return parts;
 }
 
-void AddContacts(const SubdomainContacts& chosen, const StepColumns& columns, std::vector<ProblemPart>* parts) {
+void AddContacts(const SubdomainContacts& chosen, const ContactTable& contacts, const StepColumns& columns,
+                 std::vector<ProblemPart>* parts) {
   for (std::size_t e = 0; e < chosen.rows.size(); ++e) {
     ProblemPart& part = (*parts)[e];
     part.sum.contacts += static_cast<double>(chosen.rows[e].size());
-    double& speed = part.max.contact_speed;
-    // A negative offset asks for a speed too: that of recovery.
-    for (const std::int32_t c : chosen.rows[e]) speed = std::max({speed, -columns.approach[c], -columns.offset[c]});
+    for (const std::int32_t c : chosen.rows[e]) {
+      // A negative offset asks for a speed too: that of recovery.
+      const double speed = std::max({0.0, -columns.approach[c], -columns.offset[c]});
+      part.sum.contact_energy += speed * speed / (columns.inverse_mass[contacts.a[c]] + columns.inverse_mass[contacts.b[c]]);
+      part.max.contact_speed = std::max(part.max.contact_speed, speed);
+    }
   }
 }
 
@@ -72,7 +78,8 @@ ProblemTotals ReduceTotals(std::vector<ProblemPart> parts, ContactModel mine, Co
   const auto [sum, max] = ReduceInOrder(parts, communicator);
   ProblemTotals totals;
   totals.model = ModelWith(max.friction > 0.0, max.arms > 0.0);
-  totals.scales = {std::sqrt(sum.load2), std::max(max.load_speed, max.contact_speed), sum.energy};
+  totals.scales = {std::sqrt(sum.load2), std::max(max.load_speed, max.contact_speed), sum.energy,
+                   std::max(sum.energy + sum.turning_energy, sum.contact_energy)};
   totals.contacts = static_cast<std::int64_t>(sum.contacts);
   totals.bodies = static_cast<std::int64_t>(sum.bodies);
   if (sum.bodies > 0.0) {

@@ -35,26 +35,29 @@ StepColumns MakeColumns(const BodyTable& bodies, const ContactTable& contacts, c
 
 /// One subdomain's part of what all ranks must know before they build.
 struct ProblemSums {
-  double load2;   // |dt f|^2 [N^2 s^2]
-  double energy;  // |dt f|^2 / m [J]
+  double load2;           // |dt f|^2 [N^2 s^2]
+  double energy;          // |dt f|^2 / m [J]
+  double turning_energy;  // (dt torque)^2 / I [J]
+  double contact_energy;  // m' v^2 [J] of approach or recovery
   double contacts;
   double bodies;
   double radius, mass;
 };
 struct ProblemMaxima {
-  double load_speed;      // |dt f| / m [m/s]
+  double load_speed;      // |dt f| / m, |dt torque| / sqrt(m I) [m/s]
   double contact_speed;   // of approach or recovery [m/s]
   double friction, arms;  // 1: some contact has it
 };
 using ProblemPart = ReductionPart<ProblemSums, ProblemMaxima>;
 
 /// A free body, in the part of its home subdomain.
-void AddBody(double mass, double radius, const Wrench& force, double dt, ProblemPart* part);
+void AddBody(double mass, double inertia, double radius, const Wrench& force, double dt, ProblemPart* part);
 /// The parts of this rank's subdomains from the bodies that it owns; `home`: cell of each.
 std::vector<ProblemPart> PartsOfBodies(const Population& population, std::span<const std::int32_t> home,
                                        const SubdomainContacts& chosen, double dt, int rank);
 /// Adds their contacts.
-void AddContacts(const SubdomainContacts& chosen, const StepColumns& columns, std::vector<ProblemPart>* parts);
+void AddContacts(const SubdomainContacts& chosen, const ContactTable& contacts, const StepColumns& columns,
+                 std::vector<ProblemPart>* parts);
 
 /// The same on all ranks.
 struct ProblemTotals {

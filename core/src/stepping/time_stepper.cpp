@@ -128,7 +128,7 @@ class TimeStepper::Impl {
     now_.columns = MakeColumns(bodies(), now_.contacts, now_.chosen, stepping_, dt);
     const ProblemTables tables = TablesOf(now_.columns, now_.contacts, now_.sharing);
     std::vector<ProblemPart> parts = PartsOfBodies(population(), now_.home, now_.chosen, dt, communicator_->rank());
-    AddContacts(now_.chosen, now_.columns, &parts);
+    AddContacts(now_.chosen, now_.contacts, now_.columns, &parts);
     const ProblemTotals totals = ReduceTotals(std::move(parts), RequiredModel(tables), communicator_);
     problem_ = AssembleProblem(tables, bodies().id, now_.chosen, totals, blocks_, communicator_->rank());
     problem_.dt = dt;

@@ -7,10 +7,11 @@
 
 #include "commands/print_notes.h"
 #include "problem/problem_file.h"
+#include "problem/self_stress.h"
 
 namespace nscdd {
 
-void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
+void Solve(const std::filesystem::path& problem, const SolverRequest& request, bool self_stress) {
   const ProblemFile file = ReadProblemFile(problem);
   PrintNotes(file.notes);
   SolverRegistry registry;
@@ -33,6 +34,11 @@ void Solve(const std::filesystem::path& problem, const SolverRequest& request) {
   json["nat_max"] = report.residuals.nat_max;
   json["qm16"] = report.residuals.qm16;
   json["interface_jump"] = report.residuals.interface_jump;
+  json["load_error"] = report.residuals.load_error;
+  json["power"] = report.residuals.power;
+  json["wall_error"] = report.residuals.wall_error;
+  json["imbalance"] = report.imbalance;
+  if (self_stress) json["undetermined_share"] = UndeterminedShare(file.problem, solution.impulse);
   if (!file.notes.sentences.empty()) json["notes"] = file.notes.sentences;
   for (const char* key : {"V_end", "r", "v"}) json[key] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < file.body_count; ++i) {

@@ -7,7 +7,8 @@
 
 namespace nscdd {
 
-/// `nscdd solve`: solves one problem file and prints the solution as JSON. Throws Error on bad input.
-void Solve(const std::filesystem::path& problem, const SolverRequest& request);
+/// `nscdd solve`: solves one problem file and prints the solution as JSON, with the share of the impulses that no velocity sees
+/// if `self_stress`. Throws Error on bad input.
+void Solve(const std::filesystem::path& problem, const SolverRequest& request, bool self_stress);
 
 }  // namespace nscdd
