@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the acceleration inflates impulses along self-stresses: single steps of a jammed pile, each from one saved state, with
-and without it. Prints, for every solver and tolerance, the largest ratios of |r|_D (D = diag W) and of the sum of r_n on the walls,
-accelerated over plain; exit code 1 where one is above the bound.
+"""Whether the acceleration inflates impulses along self-stresses: single steps of a jammed pile, each from one saved state,
+with and without it. Prints, for every solver and tolerance, the largest ratios of |r|_D (D = diag W) and of the sum of r_n on
+the walls, accelerated over plain; exit code 1 where one is above the bound.
 
     tests/runner/self_stress.py --steps 200                    # the program: build/release/bin/nscdd, or NSCDD=...
     tests/runner/self_stress.py --steps 200 --tolerance 1e-8   # steps that 1e6 plain sweeps solve

@@ -91,5 +91,6 @@ struct Figure {
            "part of the loads that has not arrived where it is borne; in a pile at rest, of its weight") \
   RESIDUAL(double, wall_error, kResult, "N s", "estimate from above of the error of the impulse on all prescribed bodies") \
   SOLVE(double, imbalance, kResult, "-", \
-        "momentum that the worst body has out of nothing, over the largest of its mass times the velocity scale and its impulses")
+        "momentum that the worst body has out of nothing, over the largest of its mass times the velocity scale and its " \
+        "impulses")
 // clang-format on

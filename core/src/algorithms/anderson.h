@@ -21,8 +21,8 @@ namespace nscdd {
 /// Safeguards: where |f| has grown the differences are forgotten and next s = g; and sum |c_i| |dg_i| <= reach |f|, or impulses
 /// grow along self-stresses, which no velocity sees. The swept state g is what is measured and returned.
 ///
-/// Sweeps carry a load to the ground slowly: after a test the next start is multiplied by 1 - S (residual.h), the maximum of the
-/// dual energy along r. Whatever the start, (s, g) is one more pair of the history.
+/// Sweeps carry a load to the ground slowly: after a test the next start is multiplied by 1 - S (residual.h), the maximum of
+/// the dual energy along r. Whatever the start, (s, g) is one more pair of the history.
 class Anderson {
  public:
   static constexpr int kMaxDepth = 8;

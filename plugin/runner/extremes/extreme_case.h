@@ -28,10 +28,12 @@ struct ExtremeCase {
   std::vector<std::pair<std::string, std::string>> options = {};  ///< given to the solvers that have them
   std::string only_with = {};                                     ///< an option that a solver must have for this case
   double extent = 10.0;                                           ///< [m] largest coordinate, whose rounding the gaps inherit
-  double amplification = 1.0;  ///< velocity of a body over the residual that a contact leaves
-  double lambda = 0.0;         ///< F = y - M_lambda V keeps momentum to lambda times the rounding
-  bool feeds_energy = false;   ///< feedback of interpenetration does work
-  bool quick = false;          ///< in the short version too
+  double amplification = 1.0;    ///< velocity of a body over the residual that a contact leaves
+  double lambda = 0.0;           ///< F = y - M_lambda V keeps momentum to lambda times the rounding
+  bool feeds_energy = false;     ///< feedback of interpenetration does work
+  bool by_weight = false;        ///< the error is that of the impulse on all prescribed bodies, at most 1 %
+  bool has_no_solution = false;  ///< converged is wrong, whatever the velocities; the right answer names the bodies
+  bool quick = false;            ///< in the short version too
 };
 
 std::vector<ExtremeCase> StackCases();      ///< masses, radii, columns

@@ -33,6 +33,18 @@ void BuildWedge(double angle, double friction, reference::World* world) {
   AddGrain(world, 1, {0.0, 0.5 / std::cos(angle)}, 0.5, friction);
 }
 
+/// Disks in a row between two half-planes, the right one coming with `speed`.
+void BuildSqueeze(int disks, double speed, double friction, reference::World* world) {
+  for (const double side : {1.0, -1.0}) {
+    reference::Body wall = reference::MakeWall(side > 0.0 ? 0 : 1);
+    wall.half_planes = {{{side, 0.0}, side > 0.0 ? 0.0 : -static_cast<double>(disks)}};
+    wall.friction = friction;
+    if (side < 0.0) wall.velocity.vx = -speed;
+    world->Add(wall);
+  }
+  for (int k = 0; k < disks; ++k) AddGrain(world, 2 + k, {0.5 + k, 0.0}, 0.5, friction);
+}
+
 ExtremeCase Make(const std::string& name, std::function<void(reference::World*)> build, bool quick = false) {
   ExtremeCase c{.family = "jammed", .name = name, .build = std::move(build)};
   c.quick = quick;
@@ -70,6 +82,18 @@ std::vector<ExtremeCase> JammedCases() {
   for (const double mu : {0.0, 0.5}) {
     cases.push_back(Make(fmt::format("pile pressed by 1e-3, mu {:g}", mu),
                          [mu](reference::World* w) { BuildPile({.friction = mu, .spacing = 0.999}, w); }));
+  }
+  for (const double speed : {1e-3, 1.0}) {
+    for (const double mu : {0.0, 0.5}) {
+      cases.push_back(Make(
+          fmt::format("no room, closing at {:g} m/s, mu {:g}", speed, mu),
+          [=](reference::World* w) { BuildSqueeze(3, speed, mu, w); }, speed == 1.0));
+      cases.back().family = "no solution";
+      cases.back().scale = speed;
+      cases.back().has_no_solution = true;
+      cases.back().criterion = "nat";
+      cases.back().tolerance = 1e-4;
+    }
   }
   // Frictionless: the velocity is unique, and a tight solution is the truth.
   cases.push_back(Moving("collapse, mu 0", {.right_wall = false}, kGravity * 0.01));

@@ -53,6 +53,14 @@ std::vector<ExtremeCase> StackCases() {
   for (const std::size_t count : {5, 10, 20, 40, 80, 160, 320, 640}) {
     cases.push_back(Stack("column", fmt::format("{} disks", count), std::vector<Grain>(count), count == 5 || count == 40));
   }
+  // The criterion alone is content before the floor carries the weight.
+  for (const std::size_t count : {5, 20, 80, 200}) {
+    ExtremeCase c = Stack("load", fmt::format("column of {} disks, nat 1e-4", count), std::vector<Grain>(count), count == 20);
+    c.criterion = "nat";
+    c.tolerance = 1e-4;
+    c.by_weight = true;
+    cases.push_back(c);
+  }
   return cases;
 }
 
