@@ -6,7 +6,7 @@ debian_packages=(
   libopenmpi-dev openmpi-bin
   libeigen3-dev libmumps-dev libfmt-dev libbox2d-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
-  libhdf5-openmpi-dev libcairo2-dev fonts-dejavu-core
+  libhdf5-openmpi-dev liblzma-dev libcairo2-dev fonts-dejavu-core
   libgtest-dev libbenchmark-dev gnuplot-nox
   libfclib-dev libsiconos-numerics-dev
   python3 python3-h5py

@@ -11,3 +11,12 @@ function(nscdd_install_part)
   set_property(GLOBAL APPEND PROPERTY NSCDD_PUBLIC_PARTS ${CMAKE_CURRENT_SOURCE_DIR})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
+
+# Makes a text file part of a target, as `extern const char SYMBOL[]` of namespace nscdd.
+function(nscdd_embed_text target file symbol)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  file(READ ${file} text)
+  file(CONFIGURE OUTPUT ${symbol}.cpp @ONLY
+       CONTENT "namespace nscdd {\nextern const char @symbol@[];\nconst char @symbol@[] = R\"__(@text@)__\";\n}\n")
+  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp)
+endfunction()

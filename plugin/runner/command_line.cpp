@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
-#include "scene/utf8.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

@@ -9,18 +9,12 @@
 #include <functional>
 
 #include "command_line.h"
-#include "commands/check.h"
-#include "commands/export.h"
-#include "commands/extremes.h"
-#include "commands/run.h"
-#include "commands/solve.h"
-#include "commands/solvers.h"
-#include "commands/tradeoff.h"
+#include "commands/commands.h"
 #include "mpi_session.h"
 #include "nscdd/error.h"
 #include "nscdd/host/validator.h"
 #include "render/render.h"
-#include "scene/utf8.h"
+#include "scene/text.h"
 
 namespace {
 

@@ -8,32 +8,31 @@
 namespace nscdd {
 namespace {
 
-template <class T>
-void Copy(const TableView& table, const char* name, std::vector<T>* column) {
-  if constexpr (std::is_same_v<T, double>) {
+/// Fills the columns that it is shown from those of the plugin's table; vectors from two of them.
+struct ColumnCopier {
+  const TableView& table;
+
+  void operator()(const std::string& name, const char*, std::vector<double>& column) const {
     const auto values = table.Real(name);
-    column->assign(values.begin(), values.end());
-  } else {
-    for (const std::int64_t value : table.Integer(name)) column->push_back(static_cast<T>(value));
+    column.assign(values.begin(), values.end());
   }
-}
+  template <class T>
+  void operator()(const std::string& name, const char*, std::vector<T>& column) const {
+    for (const std::int64_t value : table.Integer(name)) column.push_back(static_cast<T>(value));
+  }
+  void operator()(const std::string& name, const char* unit, std::vector<double>& x, std::vector<double>& y) const {
+    const std::string prefix = name == "position" ? "" : name == "velocity" ? "v" : name + "_";
+    (*this)(prefix + "x", unit, x);
+    (*this)(prefix + "y", unit, y);
+  }
+};
 
 }  // namespace
 
 GrainTable MakeGrainTable(const Solver& solver) {
   const TableView t = solver.Table("bodies");
   GrainTable g;
-  Copy(t, "id", &g.id);
-  Copy(t, "x", &g.x);
-  Copy(t, "y", &g.y);
-  Copy(t, "angle", &g.angle);
-  Copy(t, "vx", &g.vx);
-  Copy(t, "vy", &g.vy);
-  Copy(t, "spin", &g.spin);
-  Copy(t, "radius", &g.radius);
-  Copy(t, "multiplicity", &g.multiplicity);
-  Copy(t, "subdomain", &g.subdomain);
-  Copy(t, "kind", &g.kind);
+  ForEachGrainColumn(g, ColumnCopier{t});
   return g;
 }
 
@@ -78,25 +77,9 @@ double MeanRadius(const GrainTable& grains, const RankGroup& ranks) {
 ContactRows MakeContactRows(const Solver& solver, double dt) {
   const TableView t = solver.Table("contacts");
   ContactRows c;
-  Copy(t, "body_a", &c.body_a);
-  Copy(t, "body_b", &c.body_b);
-  Copy(t, "shape_a", &c.shape_a);
-  Copy(t, "shape_b", &c.shape_b);
-  Copy(t, "image", &c.image);
-  Copy(t, "gap", &c.gap);
-  Copy(t, "final_gap", &c.final_gap);
-  Copy(t, "normal_x", &c.normal_x);
-  Copy(t, "normal_y", &c.normal_y);
-  Copy(t, "point_x", &c.point_x);
-  Copy(t, "point_y", &c.point_y);
-  Copy(t, "lever_a", &c.lever_a);
-  Copy(t, "lever_b", &c.lever_b);
-  Copy(t, "impulse_n", &c.impulse_n);
-  Copy(t, "impulse_t", &c.impulse_t);
-  Copy(t, "velocity_n", &c.velocity_n);
-  Copy(t, "velocity_t", &c.velocity_t);
-  Copy(t, "status", &c.status);
-  Copy(t, "subdomain", &c.subdomain);
+  ForEachContactColumn(c, [copy = ColumnCopier{t}](const std::string& name, const char* unit, auto&... columns) {
+    if (!name.starts_with("force")) copy(name, unit, columns...);  // they follow from the impulses
+  });
   for (std::size_t i = 0; i < c.size(); ++i) {
     const Vec2 force{c.impulse_n[i] / dt, c.impulse_t[i] / dt}, normal{c.normal_x[i], c.normal_y[i]};
     c.force_n.push_back(force.x);
@@ -130,16 +113,12 @@ void AddShapes(const BodyDefinition& body, ShapeTable* shapes) {
 }
 
 DeepContacts FindDeepContacts(const Solver& solver, double depth) {
-  const TableView t = solver.Table("contacts");
-  const auto gap = t.Real("gap");
+  const TableView contacts = solver.Table("contacts");
   DeepContacts deep;
-  for (std::size_t c = 0; c < gap.size(); ++c) {
-    if (-gap[c] <= depth) continue;
+  for (const double gap : contacts.Real("gap")) {
+    if (-gap <= depth) continue;
     ++deep.count;
-    if (-gap[c] <= deep.deepest) continue;
-    deep.deepest = -gap[c];
-    deep.body_a = t.Integer("body_a")[c];
-    deep.body_b = t.Integer("body_b")[c];
+    deep.deepest = std::max(deep.deepest, -gap);
   }
   return deep;
 }

@@ -23,11 +23,10 @@ double MeanRadius(const GrainTable& grains, const RankGroup& ranks);
 /// Adds the shapes of a body that is more than one centred disk.
 void AddShapes(const BodyDefinition& body, ShapeTable* shapes);
 
-/// Contacts of this rank that were deeper than `depth` [m] at the detection, and the deepest of them.
+/// Contacts of this rank that were deeper than `depth` [m] at the detection.
 struct DeepContacts {
   std::int64_t count = 0;
   double deepest = 0.0;  ///< [m]
-  std::int64_t body_a = -1, body_b = -1;
 };
 DeepContacts FindDeepContacts(const Solver& solver, double depth);
 

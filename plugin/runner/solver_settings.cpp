@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <optional>
 
 #include "nscdd/error.h"
+#include "text/nearest_name.h"
 
 namespace nscdd {
 namespace {
@@ -35,45 +35,14 @@ bool Read(std::string_view text, const Option&, GridSize* grid) {
   return parsed.has_value();
 }
 
-// Levenshtein's distance, one row at a time.
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 OptionValue ParseOption(const Option& option, std::string_view text, OptionValue value) {
   const bool is_read = std::visit([&](auto& target) { return Read(text, option, &target); }, value);
   if (is_read && Allows(option, value)) return value;
-  const std::string nearest = Nearest(text, option.words);
+  const std::string nearest = NearestName(text, option.words);
   throw Error(fmt::format("option '{}' is '{}', must be {}{}", option.name, text.substr(0, 64), MustBe(option, value),
                           nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
-}
-
-std::string Nearest(std::string_view text, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 64;  // hostile text must not cost time
-  text = text.substr(0, kLongest);
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, text.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const std::size_t distance = EditDistance(text, name);
-    if (distance < least) {
-      least = distance;
-      nearest = name;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace nscdd

@@ -13,7 +13,4 @@ namespace nscdd {
 /// is 'y', must be ...".
 OptionValue ParseOption(const Option& option, std::string_view text, OptionValue value);
 
-/// Of `names` the one that was probably meant by `text`, "" if none is near.
-std::string Nearest(std::string_view text, const std::vector<std::string>& names);
-
 }  // namespace nscdd

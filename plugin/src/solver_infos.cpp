@@ -9,6 +9,7 @@
 
 #include "nscdd/error.h"
 #include "option_text.h"
+#include "text/nearest_name.h"
 
 namespace nscdd {
 namespace {
@@ -34,7 +35,7 @@ const Entry* Find(const std::vector<Entry>& entries, std::string_view name) {
 }
 
 std::string Suggestion(std::string_view name, const std::vector<std::string>& names) {
-  const std::string nearest = Nearest(name, names);
+  const std::string nearest = NearestName(name, names);
   if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
   return fmt::format("it has {}", fmt::join(names, ", "));
 }

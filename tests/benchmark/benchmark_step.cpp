@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "nscdd/error.h"
-#include "scene/grain_size.h"
+#include "nscdd/interpenetration.h"
+#include "scene/body_stream.h"
 #include "scene/gravity.h"
 #include "scene/read_scene.h"
+#include "stopwatch.h"
 #include "tradeoff/contestant.h"
-#include "tradeoff/process_clock.h"
-#include "tradeoff/reference_run.h"
-#include "tradeoff/step_errors.h"
+#include "tradeoff/course.h"
 
 namespace nscdd::benchmark {
 namespace {
@@ -96,7 +96,7 @@ void MeasureAnswers(const StepProblem& problem, const std::map<ContactKey, Vec2>
 void CheckAgainstReport(double measured, double reported, std::int64_t step) {
   if (reported < 0.0 || std::abs(measured - reported) <= 1e-6 * reported + 1e-12) return;
   throw Error(
-      fmt::format("step {}: nat is {} here and {} in the solver's report; tradeoff/answer_residuals.cpp must measure what the "
+      fmt::format("step {}: nat is {} here and {} in the solver's report; MeasureAnswer() must measure what the "
                   "core measures.",
                   step, measured, reported));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "nscdd/step_problem.h"
 #include "problem/subdomain_problem.h"
-#include "tradeoff/step_problem.h"
 
 namespace nscdd::benchmark {
 

@@ -7,7 +7,7 @@
 #include "nscdd/reference/reference_adapter.h"
 #include "nscdd/time_stepper.h"
 #include "packing.h"
-#include "problem/step_recorder.h"
+#include "problem/problem_file.h"
 
 namespace nscdd::test {
 namespace {

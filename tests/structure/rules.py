@@ -13,6 +13,7 @@ PARTS = {
     "plugin/host": "plugin host",
     "plugin/src": "plugin",
     "plugin/runner": "runner",
+    "plugin/text": "text",
 }
 
 # Where an #include "..." of a part is looked for, beside the file's own folder.
@@ -25,8 +26,9 @@ INCLUDE_FOLDERS = {
     "conformance suite": ["adapters/conformance/include", "adapters/conformance/src"],
     "plugin interface": ["plugin/include"],
     "plugin host": ["plugin/host/include", "plugin/host"],
-    "plugin": ["plugin/src"],
-    "runner": ["plugin/runner"],
+    "plugin": ["plugin/src", "plugin"],
+    "runner": ["plugin/runner", "plugin"],
+    "text": ["plugin"],
 }
 
 # What each part may include of the others.
@@ -39,15 +41,16 @@ MAY_INCLUDE = {
     "conformance suite": {"core"},
     "plugin interface": set(),
     "plugin host": {"core", "plugin interface"},
-    "plugin": {"core", "plugin interface", "callback adapter"},
-    "runner": {"core", "plugin interface", "plugin host", "reference adapter", "Box2D adapter"},
+    "plugin": {"core", "plugin interface", "callback adapter", "text"},
+    "runner": {"core", "plugin interface", "plugin host", "reference adapter", "Box2D adapter", "text"},
+    "text": set(),
 }
 
 # Floors within a part, from the lowest to the highest; the longest prefix of a path wins. An include may only run down, or stay
 # on its floor: whoever reads a part from its lowest floor up never meets a name that was not explained.
 FLOORS = [
-    ["core/include/", "core/src/parallel/", "core/src/linear/", "core/src/partition/", "core/src/problem/", "core/src/nlgs/",
-     "core/src/interface/", "core/src/newton/", "core/src/algorithms/", "core/src/stepping/"],
+    ["core/include/", "core/src/measure/", "core/src/parallel/", "core/src/linear/", "core/src/partition/", "core/src/problem/",
+     "core/src/nlgs/", "core/src/interface/", "core/src/newton/", "core/src/algorithms/", "core/src/stepping/"],
     ["adapters/box2d/include/nscdd/box2d/exact_body.h", "adapters/box2d/src/",
      "adapters/box2d/include/nscdd/box2d/box2d_adapter.h", "adapters/box2d/src/box2d_adapter.cpp"],
 ]

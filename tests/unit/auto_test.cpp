@@ -7,7 +7,6 @@
 #include <fstream>
 #include <limits>
 
-#include "auto/front_file.h"
 #include "auto/ladder.h"
 #include "auto/pilot_state.h"
 #include "auto/watcher.h"

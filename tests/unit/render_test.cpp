@@ -11,9 +11,8 @@
 #include <memory>
 #include <numbers>
 
-#include "render/colour.h"
 #include "render/drawing.h"
-#include "render/layout.h"
+#include "render/picture.h"
 #include "results/results_file.h"
 #include "results_sample.h"
 

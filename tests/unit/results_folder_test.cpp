@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "results/staged_file.h"
+#include "results/written_file.h"
 #include "results_sample.h"
 
 namespace nscdd {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "nscdd/error.h"
-#include "results/replaced_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {

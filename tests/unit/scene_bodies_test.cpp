@@ -9,7 +9,7 @@
 
 #include "nscdd/error.h"
 #include "scene/body_stream.h"
-#include "scene/packing.h"
+#include "scene/disk_file.h"
 #include "scene/read_scene.h"
 #include "scene_files.h"
 

@@ -8,10 +8,10 @@
 
 #include "nscdd/error.h"
 #include "scene/body_stream.h"
-#include "scene/key_depth.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
-#include "scene/utf8.h"
+#include "scene/text.h"
+#include "scene/toml_file.h"
 #include "scene_files.h"
 
 namespace nscdd {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nscdd/error.h"
-#include "scene/grain_size.h"
+#include "scene/body_stream.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
 #include "scene_files.h"

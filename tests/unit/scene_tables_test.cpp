@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "nscdd/error.h"
-#include "scene/body_roles.h"
 #include "scene/body_stream.h"
-#include "scene/csv_line.h"
-#include "scene/csv_number.h"
+#include "scene/csv_cells.h"
 #include "scene/disk_file.h"
 #include "scene/free_ids.h"
 #include "scene/read_scene.h"

@@ -9,9 +9,7 @@
 
 #include "nscdd/error.h"
 #include "scene_files.h"
-#include "state/sealed_file.h"
-#include "state/state_reader.h"
-#include "state/state_writer.h"
+#include "state/state_file.h"
 
 namespace nscdd {
 namespace {

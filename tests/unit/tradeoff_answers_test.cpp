@@ -8,11 +8,10 @@
 
 #include "nscdd/contact_problem.h"
 #include "nscdd/error.h"
+#include "nscdd/interpenetration.h"
 #include "nscdd/reference/reference_adapter.h"
 #include "sample_problem.h"
-#include "tradeoff/observable.h"
-#include "tradeoff/setting.h"
-#include "tradeoff/step_errors.h"
+#include "tradeoff/plan.h"
 
 namespace nscdd {
 namespace {

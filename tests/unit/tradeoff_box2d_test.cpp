@@ -9,12 +9,12 @@
 #include <functional>
 
 #include "nscdd/box2d/box2d_adapter.h"
+#include "nscdd/interpenetration.h"
 #include "nscdd/reference/reference_adapter.h"
 #include "scene/read_scene.h"
 #include "tradeoff/box2d_surface.h"
 #include "tradeoff/contestant.h"
-#include "tradeoff/reference_run.h"
-#include "tradeoff/step_errors.h"
+#include "tradeoff/course.h"
 
 namespace nscdd {
 namespace {

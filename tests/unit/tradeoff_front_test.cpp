@@ -7,11 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tradeoff/front.h"
 #include "tradeoff/plan.h"
-#include "tradeoff/tradeoff_csv.h"
-#include "tradeoff/tradeoff_plot.h"
-#include "tradeoff/tradeoff_text.h"
+#include "tradeoff/tradeoff_output.h"
+#include "tradeoff/tradeoff_row.h"
 
 namespace nscdd {
 namespace {

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "nscdd/body_table.h"
+#include "nscdd/communicator.h"
 #include "nscdd/contact_kinematics.h"
+#include "nscdd/contact_problem.h"
 #include "nscdd/contact_table.h"
 #include "nscdd/normal_law.h"
 #include "nscdd/options.h"
+#include "nscdd/platform_adapter.h"
 
 namespace nscdd {
 
@@ -43,5 +49,43 @@ inline NormalCondition NormalConditionOf(const SteppingOptions& stepping, const 
   const double levers = contacts.lever_a[c] + contacts.lever_b[c];
   return {approach, NormalOffset(stepping, contacts.gap[c], levers, approach, contacts.restitution[c], dt)};
 }
+
+/// Interpenetration [m] at a gap.
+inline double Depth(double gap) { return std::max(0.0, -gap); }
+
+/// By how much the relative velocity v_n of a step of `dt` [s] deepens a contact that is detected at `gap` [m].
+inline double DepthGrowth(double gap, double vn, double dt) { return std::max(0.0, Depth(gap + dt * vn) - Depth(gap)); }
+
+/// A tenth of the mean disk radius of all ranks' free bodies [m], each on one rank; negative while there are none. Collective.
+/// Radii are summed as multiples of 2^-26 of the largest: exact in any order, so the same on any number of ranks.
+double DefaultAlertDistance(const BodyTable& bodies, Communicator* communicator);
+
+/// The poses after `dt` [s] at constant velocity, taken into the platform's period.
+std::vector<Pose> Drifted(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double dt,
+                          const AdapterDescription& platform);
+
+/// The table with its rows in ascending order of id.
+BodyTable SortedById(const BodyTable& bodies);
+
+/// The contact problem of a step of `dt` [s] as the TimeStepper makes it, from what an adapter said: V_f, b_n, scales. `bodies`
+/// at the beginning of the step, the rows of `contacts`. Contacts that the normal law does not see are left out; subdomains are
+/// left to the solver.
+ContactProblem PoseStep(const BodyTable& bodies, const ContactTable& contacts, const SteppingOptions& stepping, double dt);
+
+/// The contact problem of one step as the TimeStepper makes it, read from outside: for answers that are not its own.
+struct StepProblem {
+  BodyTable bodies;              ///< at the beginning of the step, ascending ids
+  std::vector<Pose> detection;   ///< q_m = q_i + (1 - theta) dt V_i, by row of bodies
+  ContactProblem problem;        ///< same rows; subdomains are left to the solver
+  std::vector<ContactKey> keys;  ///< of its contacts, ascending
+  SteppingOptions stepping;
+  double dt = 0.0;  ///< [s]
+};
+
+/// From what the adapter's host holds now. Throws Error unless stepping.alert_distance >= 0 and the law keeps open contacts.
+StepProblem ReadStepProblem(PlatformAdapter* adapter, const SteppingOptions& stepping, double dt);
+
+/// All bodies of the adapter's host in ascending order of id.
+BodyTable ReadSortedBodies(PlatformAdapter* adapter);
 
 }  // namespace nscdd

@@ -4,25 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nscdd/natural_residual.h"
 #include "parallel/ordered_reduction.h"
 #include "problem/contact_frame.h"
 
 namespace nscdd {
 namespace {
-
-/// Projection on the Coulomb cone; mu = 0 is its half-line. Not a number stays not a number.
-Local ProjectOnCone(Local z, double mu) {
-  if (mu == 0.0) return {z.n <= 0.0 ? 0.0 : z.n, 0.0};
-  const double zt = std::abs(z.t);
-  if (zt <= mu * z.n) return z;
-  if (mu * zt <= -z.n) return {};
-  const double n = (z.n + mu * zt) / (1.0 + mu * mu);
-  return {n, std::copysign(mu * n, z.t)};
-}
-
-/// Minimum and maximum that are NaN when one of the two is.
-double Smaller(double a, double b) { return a < b || std::isnan(a) ? a : b; }
-double Larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
 template <class Row>
 double Friction(const Row& c) {
@@ -38,21 +25,14 @@ double ViolatedPower(const Delassus& w, double u, double mu, Local r, Local v) {
 
 /// Adds one contact; returns its error in velocity units.
 double AddContact(const Delassus& w, double offset, double mu, Local r, Local v, NaturalParts* parts) {
-  // De Saxce's shift mu |v_t| of the normal velocity makes the law of friction a projection on one cone.
+  const NaturalError error = NaturalErrorOf(w, offset, mu, {r.n, r.t}, {v.n, v.t});
   const double gap_speed = v.n + offset;
-  const double rho = 1.0 / (mu > 0.0 ? std::max(w.nn, w.tt) : w.nn);
-  const Local p = ProjectOnCone({r.n - rho * (gap_speed + mu * std::abs(v.t)), mu > 0.0 ? r.t - rho * v.t : 0.0}, mu);
-  const double en = r.n - p.n, et = r.t - p.t;
-  parts->sum_e2 += en * en + et * et;
-  parts->sum_r2 += r.n * r.n + r.t * r.t;
   const bool slides = std::abs(r.t) >= mu * r.n;
+  parts->sum_e2 += error.e2;
+  parts->sum_r2 += r.n * r.n + r.t * r.t;
   parts->sum_power += ViolatedPower(w, gap_speed, mu, r, v);
   parts->sum_load += r.n * gap_speed + r.t * v.t + (slides ? mu * r.n * std::abs(v.t) : 0.0);
-  const double normal = std::abs(Smaller(gap_speed, w.nn * r.n));
-  if (mu == 0.0) return Larger(normal, w.tt * std::abs(r.t));
-  const double bound = w.tt * mu * std::max(r.n, 0.0);
-  const double tangent = std::abs(w.tt * r.t - std::clamp(w.tt * r.t - v.t, -bound, bound));
-  return Larger(normal, tangent);
+  return error.speed;
 }
 
 /// Calls visit(k, row, W, r, v) for each contact, W of whole masses where `kShared`.
@@ -124,16 +104,9 @@ std::vector<double> ViolatedPowers(const SubdomainProblem& problem, const Subdom
   return powers;
 }
 
-double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) {
-  if (sum_e2 == 0.0) return 0.0;
-  if (!std::isfinite(sum_r2)) return NAN;  // an overflow is no small residual
-  return std::sqrt(sum_e2) / std::max(std::sqrt(sum_r2), 1e-3 * scales.impulse);
-}
+double Nat(double sum_e2, double sum_r2, const ResidualScales& scales) { return Nat(sum_e2, sum_r2, scales.impulse); }
 
-double NatMax(double worst, const ResidualScales& scales) {
-  if (scales.velocity == 0.0) return std::isfinite(worst) ? 0.0 : worst;
-  return worst / scales.velocity;
-}
+double NatMax(double worst, const ResidualScales& scales) { return NatMax(worst, scales.velocity); }
 
 double ChangeEnergy(const NaturalParts& parts, const ResidualScales& scales) {
   return Larger(parts.sum_change, 1e-6 * scales.exchange);

@@ -11,12 +11,8 @@
 
 namespace nscdd {
 
-/// Parts of one subdomain of the natural residuals, taken on the GLOBAL problem (undivided masses) once the copies agree:
-///     e_c = r_c - P_K(r_c - rho_c (v_n + b_n + mu |v_t|, v_t)),   rho_c = 1 / max(W_nn, W_tt)  (1 / W_nn without friction)
-///     P_K: projection on the Coulomb cone |r_t| <= mu r_n;  without friction P(z) = max(0, z_n)
-///     nat = ||e|| / max(||r||, 1e-3 ||dt f||);   0 without contacts
-///     nat_max = max over contacts of max(e_n, e_t) / velocity scale, with  e_n = |min(v_n + b_n, W_nn r_n)|,
-///               e_t = |W_tt r_t - clamp(W_tt r_t - v_t, +-W_tt mu max(r_n, 0))|;   0 when the scale vanishes
+/// Parts of one subdomain of the natural residuals (nscdd/natural_residual.h), taken on the GLOBAL problem (undivided masses)
+/// once the copies agree.
 /// Neither bounds the error of what many contacts do together: nat is met by ever larger r where no solution exists, and both
 /// overlook a load that has not gone through a long chain. Beside them, with u = v_n + b_n and E = |V - V_f|_M^2, are
 ///     P = sum_c p_c / E,   p_c = r_n max(0, u) + max(r_n, -u / W_nn) max(0, -u) + r_t v_t + mu r_n |v_t|   (no term is

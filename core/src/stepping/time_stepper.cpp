@@ -6,12 +6,12 @@
 
 #include "algorithms/algorithms.h"
 #include "nscdd/agreement.h"
+#include "nscdd/step_problem.h"
 #include "partition/body_migration.h"
 #include "partition/domain_extent.h"
 #include "partition/impulse_directory.h"
 #include "partition/unique_ids.h"
 #include "problem/state.h"
-#include "stepping/alert_distance.h"
 #include "stepping/contact_checks.h"
 #include "stepping/reconcile.h"
 #include "stepping/saved_state.h"

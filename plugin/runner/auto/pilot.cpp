@@ -9,6 +9,7 @@
 
 #include "nscdd/error.h"
 #include "nscdd/grid_size.h"
+#include "nscdd/step_problem.h"
 
 namespace nscdd {
 namespace {
@@ -47,7 +48,7 @@ double SolverGrowth(const Solver& solver, double dt) {
   const auto gap = t.Real("gap"), vn = t.Real("velocity_n");
   double growth = 0.0;
   for (std::size_t c = 0; c < gap.size(); ++c) {
-    growth = std::max(growth, std::max(0.0, -(gap[c] + dt * vn[c])) - std::max(0.0, -gap[c]));
+    growth = std::max(growth, DepthGrowth(gap[c], vn[c], dt));
   }
   return growth;
 }

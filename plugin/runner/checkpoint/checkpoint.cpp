@@ -2,18 +2,43 @@
 #include "checkpoint/checkpoint.h"
 
 #include <fmt/format.h>
-
 #include <array>
 #include <cstring>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "nscdd/error.h"
 #include "results/crc64.h"
 #include "results/run_files.h"
-#include "results/staged_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
+
+// Found by the JSON library beside the types.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileExtent, name, size, crc)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputFile, path, hash)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, program, plugin_path, plugin, scene_text, scene_file, scene_path, scene_hash,
+                                   inputs, notes, adapter, solver, options, steps, save_every, checkpoint_every)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckpointHead, run, pilot, step, ranks, tables, segments)
+
+std::string FormatHead(const CheckpointHead& head) { return nlohmann::json(head).dump(); }
+
+CheckpointHead ParseHead(const std::string& text) {
+  // All numbers of a head are integers; the library would convert 1e300 to one, which is undefined.
+  const auto is_sound = [](int, nlohmann::json::parse_event_t, const nlohmann::json& value) {
+    if (value.is_number_float()) throw Error("its description has a number that is no integer");
+    return true;
+  };
+  try {
+    const auto head = nlohmann::json::parse(text, is_sound).get<CheckpointHead>();
+    if (head.step < 0 || head.ranks < 1 || head.run.steps < 1) throw Error("its counters make no sense");
+    return head;
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(fmt::format("its description cannot be read ({})", std::string_view(e.what()).substr(0, 200)));
+  }
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,9 +105,8 @@ void CheckWhole(std::span<const std::byte> bytes) {
   if (prologue.file_size != bytes.size()) {
     throw Error(fmt::format("it has {} bytes, {} were written", bytes.size(), prologue.file_size));
   }
-  Crc64 crc;
-  crc.Add(bytes.first(bytes.size() - sizeof(Crc)));
-  if (Cutter(bytes.last(sizeof(Crc))).Get<Crc>() != crc.value()) throw Error("it is damaged: its checksum is another one");
+  if (Cutter(bytes.last(sizeof(Crc))).Get<Crc>() != Crc64Of(bytes.first(bytes.size() - sizeof(Crc))))
+    throw Error("it is damaged: its checksum is another one");
 }
 
 std::vector<std::byte> MakeSection(const std::vector<SavedBody>& bodies, std::span<const std::byte> state) {

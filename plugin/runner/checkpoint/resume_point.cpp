@@ -8,10 +8,10 @@
 #include <system_error>
 
 #include "nscdd/error.h"
-#include "results/results_copy.h"
+#include "results/results_file.h"
 #include "results/run_files.h"
-#include "results/staged_file.h"
-#include "state/state_reader.h"
+#include "results/written_file.h"
+#include "state/state_file.h"
 
 namespace nscdd {
 namespace {

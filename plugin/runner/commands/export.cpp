@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/export.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "commands/print_notes.h"
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
-#include "problem/fclib_file.h"
 #include "problem/problem_file.h"
 #include "run_results.h"
 #include "scene/platform.h"

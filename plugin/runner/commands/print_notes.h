@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "scene/notes.h"
+#include "scene/scene.h"
 
 namespace nscdd {
 

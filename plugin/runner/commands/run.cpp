@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/run.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 
 #include "checkpoint/resume_point.h"
 #include "commands/print_notes.h"
-#include "commands/run_checkpoints.h"
 #include "commands/run_plan.h"
 #include "commands/run_state.h"
 #include "nscdd/error.h"
@@ -22,10 +20,11 @@
 #include "results/run_summary.h"
 #include "results/steps_csv.h"
 #include "run_results.h"
-#include "scene/body_roles.h"
-#include "scene/oddities.h"
-#include "scene/packing.h"
+#include "scene/body_stream.h"
+#include "scene/disk_file.h"
 #include "scene/platform.h"
+#include "scene/read_scene.h"
+#include "stopwatch.h"
 
 namespace nscdd {
 namespace {
@@ -36,7 +35,7 @@ constexpr int kInterruptedCode = 4;
 class SceneRun {
  public:
   SceneRun(const RunRequest& request, const MpiSession& session)
-      : request_(request), ranks_(session.ranks()), session_(session), start_(std::chrono::steady_clock::now()) {}
+      : request_(request), ranks_(session.ranks()), session_(session) {}
 
   int Execute() {
     if (!request_.resume.empty()) {
@@ -90,7 +89,7 @@ class SceneRun {
   const RunRequest& request_;
   const RankGroup& ranks_;
   const MpiSession& session_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch watch_;
   RunPlan plan_;
   std::unique_ptr<ResultsFolder> folder_;
   std::unique_ptr<ResumePoint> resume_;  // null unless an earlier run goes on
@@ -297,7 +296,7 @@ void SceneRun::CloseResults() {
 
 void SceneRun::PrintSummary(bool stopped) {
   if (!ranks_.is_root()) return;
-  summary_.seconds_wall = seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  summary_.seconds_wall = seconds_before_ + watch_.seconds();
   if (!request_.quiet) {
     fmt::print("{}", FormatSummary(summary_));
     if (!overlap_note_.empty()) fmt::print("{}\n", overlap_note_);

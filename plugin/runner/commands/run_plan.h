@@ -6,8 +6,8 @@
 #include <string>
 
 #include "auto/pilot.h"
-#include "checkpoint/run_record.h"
-#include "commands/run.h"
+#include "checkpoint/checkpoint.h"
+#include "commands/commands.h"
 #include "nscdd/host/solver_registry.h"
 #include "results/results_folder.h"
 #include "scene/scene.h"

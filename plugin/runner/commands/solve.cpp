@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/solve.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "commands/print_notes.h"
+#include "nscdd/self_stress.h"
 #include "problem/problem_file.h"
-#include "problem/self_stress.h"
 
 namespace nscdd {
 

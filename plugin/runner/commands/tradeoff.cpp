@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/tradeoff.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "checkpoint/stop_signal.h"
 #include "nscdd/error.h"
 #include "results/progress_bar.h"
-#include "results/replaced_file.h"
-#include "results/staged_file.h"
+#include "results/written_file.h"
 #include "scene/platform.h"
 #include "scene/read_scene.h"
-#include "tradeoff/measurement.h"
-#include "tradeoff/step_problem.h"
-#include "tradeoff/tradeoff_csv.h"
-#include "tradeoff/tradeoff_plot.h"
-#include "tradeoff/tradeoff_text.h"
+#include "stopwatch.h"
+#include "tradeoff/tradeoff_output.h"
+#include "tradeoff/views.h"
 
 namespace nscdd {
 namespace {
@@ -66,15 +62,13 @@ class TradeoffCommand {
   void Conclude(bool interrupted);
   void WriteFile(const std::string& name, const std::string& text) const;
   void StoreFront() const;
-  /// [s] since the measurement began: scouting, reference.
-  double SecondsSpent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   ProgressBar::Style BarStyle() const { return ProgressBar::StyleFor(stdout, request_.quiet); }
   void Say(const std::string& line) const {
     if (!request_.quiet) fmt::print("{}\n", line);
   }
 
   const TradeoffRequest& request_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;  // since before scouting and reference
   Extent extent_;
   Scene scene_;
   SolverRegistry registry_;
@@ -114,7 +108,8 @@ void TradeoffCommand::ReadStepping() {
   const auto platform = MakePlatform(plan_.adapter, scene_);
   ForEachBody(scene_, 0, 1, [&](const BodyDefinition& body) { platform->Add(body); });
   platform->SetGravity(GravityAt(scene_.gravity, 1, scene_.time.dt, scene_.clock()));
-  plan_.mean_radius = 10.0 * DefaultAlertDistance(ReadSortedBodies(&platform->adapter()));
+  SerialCommunicator serial;
+  plan_.mean_radius = 10.0 * std::max(0.0, DefaultAlertDistance(ReadSortedBodies(&platform->adapter()), &serial));
   SteppingOptions& s = plan_.stepping = SteppingOf(choice_, registry_);
   if (s.alert_distance < 0.0) s.alert_distance = 0.1 * plan_.mean_radius;
   for (const auto& option : choice_.options) {
@@ -200,7 +195,7 @@ void TradeoffCommand::Measure(const StopSignal& interrupt) {
   events.timed = [&](const std::vector<TradeoffRow>& rows) { csv.Rewrite(rows); };
   events.tick = [&](const std::string& note, bool failed) { bar->Update(note, failed); };
   events.interrupted = [&] { return interrupt.received() != 0; };
-  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - SecondsSpent(), events);
+  Measurement measurement(settings_, std::move(views), extent_.repetitions, extent_.seconds - watch_.seconds(), events);
   bar = std::make_unique<ProgressBar>(stdout, BarStyle(), measurement.ticks());
   measurement.Run();
   bar->Finish();

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "extremes/extreme_map.h"
-#include "render/colour.h"
 #include "render/picture.h"
 
 namespace nscdd {

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "extremes/extreme_map.h"
+#include "results/csv.h"
 
 namespace nscdd {
 namespace {
 
 constexpr int kNameWidth = 46, kCellWidth = 15;
+constexpr const char* kVerdicts[] = {"holds", "limit", "refused", "silent_miss", "broken", "none"};  // in extremes.csv
 
 std::string NameOf(const ExtremeCase& c) { return c.family + ": " + c.name; }
 
@@ -87,6 +89,24 @@ int CountFailures(const ExtremeMap& map) {
     }));
   }
   return count;
+}
+
+std::string FormatCsv(const ExtremeMap& map) {
+  std::string text =
+      "family,case,subdomains,criterion,tolerance,solver,verdict,status,error,bound,momentum,energy,iterations,contacts,"
+      "nat,nat_max,sentence\n";
+  for (std::size_t i = 0; i < map.cases.size(); ++i) {
+    const ExtremeCase& c = map.cases[i];
+    for (std::size_t k = 0; k < map.columns.size(); ++k) {
+      const Outcome& o = map.outcomes[i][k];
+      if (o.verdict == Verdict::kNone) continue;
+      text += fmt::format("{},{},{},{},{},{},{},{},{:.3e},{:.1e},{:.1e},{:.1e},{},{},{:.3e},{:.3e},{}\n", c.family,
+                          CsvQuoted(c.name), c.subdomains, c.criterion, c.tolerance, map.columns[k].name,
+                          kVerdicts[static_cast<std::size_t>(o.verdict)], o.status, o.error, o.bound, o.momentum, o.energy,
+                          o.iterations, o.contacts, o.nat, o.nat_max, CsvQuoted(o.sentence));
+    }
+  }
+  return text;
 }
 
 }  // namespace nscdd

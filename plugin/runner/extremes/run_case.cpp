@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "extremes/run_case.h"
+#include "extremes/extreme_map.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "nscdd/error.h"
 #include "nscdd/host/adapter_host.h"
@@ -23,14 +22,13 @@ using OptionList = std::vector<std::pair<std::string, std::string>>;
 double WorstOf(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 /// Options of the case and of the column, those that the solver has.
-OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver,
-                      const RunLimits& limits) {
+OptionList OptionsFor(const ExtremeCase& c, const SolverColumn& column, const nscdd_solver_info& solver, int max_iterations) {
   OptionList all = column.options;
   all.insert(all.end(), c.options.begin(), c.options.end());
   all.emplace_back("subdomains", c.subdomains);
   all.emplace_back("criterion", c.criterion);
   all.emplace_back("tolerance", fmt::format("{}", c.tolerance));
-  if (column.solver != "newton") all.emplace_back("max_iterations", fmt::format("{}", limits.max_iterations));
+  if (column.solver != "newton") all.emplace_back("max_iterations", fmt::format("{}", max_iterations));
   std::erase_if(all, [&](const auto& option) { return FindOption(solver, option.first) == nullptr; });
   return all;
 }
@@ -52,12 +50,13 @@ class CaseRun {
  public:
   CaseRun(const ExtremeCase& c, const SolverRegistry& registry, const std::string& solver, const OptionList& options)
       : case_(c), adapter_(&world_), host_(&adapter_), solver_(registry.Create({solver, options, host_.table(), {}})) {
-    c.build(&world_);
+    world_.gravity = c.gravity;
+    for (const reference::Body& body : c.bodies) world_.Add(body);
   }
 
   /// Error is filled by the caller, who knows the truth.
   Outcome Run() {
-    for (int k = 0; k < case_.steps; ++k) {
+    for (std::int64_t k = 0; k < case_.steps; ++k) {
       const Velocities before = FreeVelocities(world_);
       solver_.Step(case_.dt);
       ReadReport(solver_.Report());
@@ -122,48 +121,50 @@ class CaseRun {
   bool warned_ = false;
 };
 
+Twist TruthOf(const ExtremeCase& c, std::int64_t id) {
+  const auto own = c.truths.find(id);
+  return own == c.truths.end() ? c.truth : own->second;
+}
+
 /// |sum m (V - V_truth)| over the mass and the scale.
-double WeightError(const reference::World& world, const std::function<Twist(std::int64_t)>& truth, double scale) {
+double WeightError(const reference::World& world, const ExtremeCase& c) {
   Vec2 lack{};
   double mass = 0.0;
   for (const reference::Body& body : world.bodies()) {
     if (body.kind != BodyKind::kFree) continue;
-    lack = lack + body.mass * (Linear(body.velocity) - Linear(truth(body.id)));
+    lack = lack + body.mass * (Linear(body.velocity) - Linear(TruthOf(c, body.id)));
     mass += body.mass;
   }
-  return Norm(lack) / (mass * scale);
+  return Norm(lack) / (mass * c.scale);
 }
 
-double ErrorOf(const reference::World& world, const std::function<Twist(std::int64_t)>& truth, double scale) {
+double ErrorOf(const reference::World& world, const ExtremeCase& c) {
   double error = 0.0;
   for (const reference::Body& body : world.bodies()) {
     if (body.kind != BodyKind::kFree) continue;
-    const Twist expected = truth(body.id);
+    const Twist expected = TruthOf(c, body.id);
     const double spin = body.disks.front().radius * (body.velocity.spin - expected.spin);
     for (const double part : {body.velocity.vx - expected.vx, body.velocity.vy - expected.vy, spin}) {
-      error = WorstOf(error, std::abs(part) / scale);
+      error = WorstOf(error, std::abs(part) / c.scale);
     }
   }
   return error;
 }
 
-/// The velocities of the tightest solution that the plugin finds, and its nat_max.
-struct Reference {
-  Velocities velocity;
-  double nat_max = std::numeric_limits<double>::infinity();
-};
-
-Reference SolveTightly(const ExtremeCase& c, const SolverRegistry& registry) {
-  Reference best;
-  ExtremeCase tight = c;
+/// The case with the velocities of the tightest solution that the plugin finds as its truth. Returns their nat_max.
+double SolveTightly(const SolverRegistry& registry, ExtremeCase* c) {
+  double best = std::numeric_limits<double>::infinity();
+  ExtremeCase tight = *c;
   tight.criterion = "nat_max";
   tight.tolerance = 1e-13;
   for (const SolverColumn& column :
        {SolverColumn{"", "newton", {}}, SolverColumn{"", "nscd", {{"acceleration", "anderson"}}}}) {
     const nscdd_solver_info& solver = *registry.Find(column.solver).info;
-    CaseRun run(tight, registry, column.solver, OptionsFor(tight, column, solver, {200000}));
-    const Outcome outcome = run.Run();
-    if (outcome.nat_max < best.nat_max) best = {FreeVelocities(run.world()), outcome.nat_max};
+    CaseRun run(tight, registry, column.solver, OptionsFor(tight, column, solver, 200000));
+    const double nat_max = run.Run().nat_max;
+    if (!(nat_max < best)) continue;
+    best = nat_max;
+    c->truths = FreeVelocities(run.world());
   }
   return best;
 }
@@ -174,7 +175,7 @@ void Judge(const ExtremeCase& c, double reference, Outcome* o) {
   const double count = std::max<double>(1.0, static_cast<double>(o->contacts));
   const double promise = c.criterion == "nat" ? std::min(0.1, 1e3 * c.tolerance) : 10.0 * (c.tolerance + reference);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + c.extent / (c.dt * c.scale));
-  o->bound = c.by_weight ? 0.01 : count * c.amplification * (promise + rounding * c.steps);
+  o->bound = c.by_weight ? 0.01 : count * c.amplification * (promise + rounding * static_cast<double>(c.steps));
   if (c.has_no_solution) {
     const bool named = o->sentence.find("squeeze: ") != std::string::npos;
     o->verdict = o->status == "converged" ? Verdict::kSilent : named ? Verdict::kHolds : Verdict::kLimit;
@@ -192,17 +193,17 @@ void Judge(const ExtremeCase& c, double reference, Outcome* o) {
   }
 }
 
-Outcome RunOne(const ExtremeCase& c, const SolverColumn& column, const SolverRegistry& registry, const RunLimits& limits,
-               const std::optional<Reference>& reference) {
+/// `reference`: nat_max of the truth.
+Outcome RunOne(const ExtremeCase& c, const SolverColumn& column, const SolverRegistry& registry, int max_iterations,
+               double reference) {
   const nscdd_solver_info& solver = *registry.Find(column.solver).info;
   Outcome outcome;
   if (!c.only_with.empty() && FindOption(solver, c.only_with) == nullptr) return outcome;
   try {
-    CaseRun run(c, registry, column.solver, OptionsFor(c, column, solver, limits));
+    CaseRun run(c, registry, column.solver, OptionsFor(c, column, solver, max_iterations));
     outcome = run.Run();
-    const std::function<Twist(std::int64_t)> tight = [&](std::int64_t id) { return reference->velocity.at(id); };
-    outcome.error = (c.by_weight ? WeightError : ErrorOf)(run.world(), reference ? tight : c.truth, c.scale);
-    Judge(c, reference ? reference->nat_max : 0.0, &outcome);
+    outcome.error = (c.by_weight ? WeightError : ErrorOf)(run.world(), c);
+    Judge(c, reference, &outcome);
   } catch (const Error& e) {
     outcome.verdict = Verdict::kRefused;
     outcome.status = "refused";
@@ -213,12 +214,12 @@ Outcome RunOne(const ExtremeCase& c, const SolverColumn& column, const SolverReg
 
 }  // namespace
 
-std::vector<Outcome> RunCase(const ExtremeCase& c, const std::vector<SolverColumn>& columns, const SolverRegistry& registry,
-                             const RunLimits& limits) {
-  std::optional<Reference> reference;
-  if (!c.truth) reference = SolveTightly(c, registry);
+std::vector<Outcome> RunCase(const ExtremeCase& extreme_case, const std::vector<SolverColumn>& columns,
+                             const SolverRegistry& registry, int max_iterations) {
+  ExtremeCase c = extreme_case;
+  const double reference = c.tight ? SolveTightly(registry, &c) : 0.0;
   std::vector<Outcome> row;
-  for (const SolverColumn& column : columns) row.push_back(RunOne(c, column, registry, limits, reference));
+  for (const SolverColumn& column : columns) row.push_back(RunOne(c, column, registry, max_iterations, reference));
   return row;
 }
 

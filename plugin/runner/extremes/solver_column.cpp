@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "extremes/solver_column.h"
+#include "extremes/extreme_map.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "problem/fclib_file.h"
+#include "problem/problem_file.h"
 
 #include <fmt/format.h>
 
+#include "nscdd/contact_operators.h"
 #include "nscdd/error.h"
-#include "problem/contact_operators.h"
 #include "results/hdf5_file.h"
-#include "results/replaced_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {

@@ -6,21 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "nscdd/error.h"
-#include "results/replaced_file.h"
-#include "scene/names.h"
-#include "scene/utf8.h"
+#include "nscdd/step_problem.h"
+#include "results/written_file.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounded = 1e-9;    // off unit length by so much is fine for the solver
 constexpr double kFewDigits = 1e-3;  // off unit length as numbers of few digits are
 
@@ -121,41 +119,30 @@ class Reader {
   Json json_;
 };
 
-struct Start {
-  std::vector<Pose> pose;       // at the detection configuration
-  std::vector<Twist> velocity;  // at the beginning
-};
-
-void AddBodies(const Reader& file, double dt, double theta, ContactProblem* problem, Start* start) {
+/// The bodies at the beginning, planes behind the others. The problem gets what a step makes of them.
+BodyTable AddBodies(const Reader& file, double dt, ContactProblem* problem) {
   const auto gravity = file.Row(file.json().value("gravity", Json::array({0.0, 0.0})), "key 'gravity'", 2);
   const auto bodies = file.Table("bodies", 10, false);
   const auto forces = file.TableOf("forces", 3, bodies.size(), "body");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  BodyTable table;
+  table.Resize(bodies.size() + file.Table("planes", 3, true).size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const bool plane = i >= bodies.size();
+    table.kind[i] = plane || bodies[i][9] != 0.0 ? BodyKind::kPrescribed : BodyKind::kFree;
+    if (plane) continue;
     const auto& b = bodies[i];
-    const bool fixed = b[9] != 0.0;
-    if (!fixed && (!(b[7] > 0.0) || !(b[8] > 0.0))) {
+    if (table.kind[i] == BodyKind::kFree && (!(b[7] > 0.0) || !(b[8] > 0.0))) {
       file.Refuse(fmt::format("'bodies' row {}", i), "has a mass or inertia that is not positive");
     }
-    const Twist v{b[3], b[4], b[5]};
-    const double drift = (1.0 - theta) * dt;
-    problem->mass.push_back(fixed ? kInfinity : b[7]);
-    problem->inertia.push_back(fixed ? kInfinity : b[8]);
-    Wrench f{b[7] * gravity[0], b[7] * gravity[1], 0.0};
+    table.pose[i] = {b[0], b[1], b[2]};
+    table.velocity[i] = {b[3], b[4], b[5]};
+    table.mass[i] = b[7];
+    table.inertia[i] = b[8];
+    Wrench& f = table.force[i] = {b[7] * gravity[0], b[7] * gravity[1], 0.0};
     if (!forces.empty()) f = {f.fx + forces[i][0], f.fy + forces[i][1], f.torque + forces[i][2]};
-    const Twist free{v.vx + dt * f.fx / b[7], v.vy + dt * f.fy / b[7], v.spin + dt * f.torque / b[8]};
-    problem->free_velocity.push_back(fixed ? v : free);
-    problem->impulse.push_back(fixed ? Wrench{} : Wrench{dt * f.fx, dt * f.fy, dt * f.torque});
-    start->pose.push_back({b[0] + drift * v.vx, b[1] + drift * v.vy, b[2] + drift * v.spin});
-    start->velocity.push_back(v);
   }
-  for ([[maybe_unused]] const auto& plane : file.Table("planes", 3, true)) {
-    problem->mass.push_back(kInfinity);
-    problem->inertia.push_back(kInfinity);
-    problem->free_velocity.push_back({});
-    problem->impulse.push_back({});
-    start->pose.push_back({});
-    start->velocity.push_back({});
-  }
+  *problem = PoseStep(table, {}, {}, dt);
+  return table;
 }
 
 std::int32_t BodyRow(const Reader& file, double number, std::size_t contact, std::size_t bodies, std::size_t all) {
@@ -175,17 +162,6 @@ void AddPlaces(const Reader& file, ContactTable* t) {
   }
   const auto sites = file.TableOf("sites", 2, t->size(), "contact");
   for (std::size_t c = 0; c < sites.size(); ++c) t->site[c] = {sites[c][0], sites[c][1]};
-}
-
-double ApproachSpeed(const ContactTable& t, const std::vector<Twist>& velocity) {
-  double largest = 0.0;
-  for (std::size_t c = 0; c < t.size(); ++c) {
-    const Twist &va = velocity[t.a[c]], &vb = velocity[t.b[c]];
-    double approach = Dot(t.normal[c], Linear(vb) - Linear(va));
-    if (t.has_arms()) approach += Cross(t.arm_b[c], t.normal[c]) * vb.spin - Cross(t.arm_a[c], t.normal[c]) * va.spin;
-    largest = std::max(largest, -approach);
-  }
-  return largest;
 }
 
 /// Unit normals of the contacts' rows, where numbers of few digits were meant for such; others stay as they are, to be refused.
@@ -212,7 +188,9 @@ std::vector<Vec2> NormalsOf(const Reader& file, const std::vector<std::vector<do
   return normals;
 }
 
-void AddContacts(const Reader& file, std::size_t bodies, const Start& start, ContactProblem* problem, Notes* notes) {
+/// `start`: all bodies; `detection`: where the contacts are sought.
+void AddContacts(const Reader& file, std::size_t bodies, const BodyTable& start, const std::vector<Pose>& detection,
+                 ContactProblem* problem, Notes* notes) {
   ContactTable& t = problem->contacts;
   const auto contacts = file.Table("contacts", 8, false);
   t.friction = file.NumberOrRow("mu", contacts.size());
@@ -230,13 +208,16 @@ void AddContacts(const Reader& file, std::size_t bodies, const Start& start, Con
     t.lever_a.push_back(row[6]);
     t.restitution.push_back(0.0);  // is in b_n already
     t.flat.push_back(0);
-    const Vec2 centre = Centre(start.pose[b]);
+    const Vec2 centre = Centre(detection[b]);
     const bool plane = a >= static_cast<std::int32_t>(bodies);
-    t.site.push_back(plane ? centre - row[5] * n : 0.5 * (centre + Centre(start.pose[a])));
+    t.site.push_back(plane ? centre - row[5] * n : 0.5 * (centre + Centre(detection[a])));
     problem->offset.push_back(row[7]);
   }
   AddPlaces(file, &t);
-  problem->approach_speed = ApproachSpeed(t, start.velocity);
+  for (std::size_t c = 0; c < t.size(); ++c) {
+    const double vn = RelativeVelocity(KinematicsOf(t, c), start.velocity[t.a[c]], start.velocity[t.b[c]]).x;
+    problem->approach_speed = std::max(problem->approach_speed, -vn);
+  }
 }
 
 }  // namespace
@@ -247,10 +228,10 @@ ProblemFile ReadProblemFile(const std::filesystem::path& path) {
   const double dt = file.Number("dt");
   result.theta = file.Number("theta", 0.5);
   if (!(dt > 0.0)) file.Refuse("key 'dt'", "must be positive");
-  Start start;
-  AddBodies(file, dt, result.theta, &result.problem, &start);
+  const BodyTable start = AddBodies(file, dt, &result.problem);
+  const auto detection = Drifted(start.pose, start.velocity, (1.0 - result.theta) * dt, {});
   result.body_count = file.Table("bodies", 10, false).size();
-  AddContacts(file, result.body_count, start, &result.problem, &result.notes);
+  AddContacts(file, result.body_count, start, detection, &result.problem, &result.notes);
   for (const double mu : result.problem.contacts.friction) {
     if (!(mu >= 0.0)) file.Refuse("key 'mu'", "must not be negative");
   }

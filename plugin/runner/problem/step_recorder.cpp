@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "problem/step_recorder.h"
-
-#include <algorithm>
-#include <numeric>
+#include "problem/problem_file.h"
 
 #include "nscdd/error.h"
-#include "problem/step_assembly.h"
+#include "nscdd/step_problem.h"
+#include "results/result_tables.h"
 
 namespace nscdd {
 
@@ -35,14 +33,12 @@ void StepRecorder::Commit(const StepResult& result) {
 
 RecordedStep StepRecorder::Problem(const SteppingOptions& stepping, double dt) const {
   if (!committed_) throw Error("no step was solved yet, so there is no contact problem to show; solve one step at least");
-  RecordedStep step{bodies_, AssembleStep(bodies_, contacts_, stepping, dt), velocity_, {}};
+  RecordedStep step{bodies_, PoseStep(bodies_, contacts_, stepping, dt), velocity_, {}};
   if (key_.size() < step.problem.contacts.size()) {
     throw Error("the solver committed fewer impulses than it was given contacts; export needs all of them");
   }
-  std::vector<std::size_t> order(
-      key_.size());  // a step of several subdomains commits one subdomain's contacts behind the other's
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key_[a] < key_[b]; });
+  // A step of several subdomains commits one subdomain's contacts behind the other's.
+  const std::vector<std::size_t> order = AscendingOrder(key_);
   for (std::size_t c = 0; c < step.problem.contacts.size(); ++c) step.impulse.push_back(impulse_[order[c]]);
   return step;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/drawing.h"
-#include "render/layout.h"
 #include "render/picture.h"
 #include "render/render.h"
 

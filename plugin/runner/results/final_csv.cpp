@@ -9,11 +9,10 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string>
 
 #include "nscdd/error.h"
-#include "results/staged_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {
@@ -24,18 +23,10 @@ struct Row {
   std::int64_t kind;             ///< BodyKind; as wide as the rest, so that no byte is undefined
 };
 
-/// Positions of the rows by ascending id.
-std::vector<std::size_t> SortedRows(const GrainTable& grains) {
-  std::vector<std::size_t> order(grains.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return grains.id[i] < grains.id[j]; });
-  return order;
-}
-
 /// Hands out rows by ascending id.
 class RowQueue {
  public:
-  explicit RowQueue(const GrainTable& grains) : grains_(grains), order_(SortedRows(grains)) {}
+  explicit RowQueue(const GrainTable& grains) : grains_(grains), order_(AscendingOrder(grains.id)) {}
 
   /// Id up to which about `count` rows can be taken; the largest number if that is all of them.
   std::int64_t BoundFor(std::size_t count) const {

@@ -1,17 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hdf5.h>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "results/hdf5_handle.h"
 #include "results/rank_group.h"
 
 namespace nscdd {
+
+/// Owns one HDF5 object.
+class Hdf5Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+
+  Hdf5Handle() = default;
+  /// Throws Error "cannot WHAT: HDF5's reason" if `id` is not valid.
+  Hdf5Handle(hid_t id, Closer closer, const std::string& what);
+  ~Hdf5Handle() { Reset(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), closer_(other.closer_) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+
+  hid_t id() const { return id_; }
+  bool is_open() const { return id_ >= 0; }
+  /// Closes it now, to learn whether that went well.
+  void Close(const std::string& what);
+
+ private:
+  void Reset() {
+    if (id_ >= 0) closer_(id_);
+    id_ = H5I_INVALID_HID;
+  }
+
+  hid_t id_ = H5I_INVALID_HID;
+  Closer closer_ = nullptr;
+};
+
+/// Throws Error "cannot WHAT: HDF5's reason" if `status` is negative.
+void CheckHdf5(herr_t status, const std::string& what);
+
+/// HDF5 prints its errors by itself; not while this lives.
+class Hdf5Silence {
+ public:
+  Hdf5Silence();
+  ~Hdf5Silence();
+  Hdf5Silence(const Hdf5Silence&) = delete;
+  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
 
 /// HDF5's name of an element type of our tables.
 template <class T>
@@ -95,9 +143,15 @@ class Hdf5File {
   void WriteAttribute(const Hdf5Handle& object, const char* name, const std::string& text);
   void WriteAttribute(const Hdf5Handle& object, const char* name, double value);
   void WriteAttribute(const Hdf5Handle& object, const char* name, std::int64_t value);
-  std::string ReadText(const Hdf5Handle& object, const char* name) const;
-  double ReadReal(const Hdf5Handle& object, const char* name) const;
-  std::int64_t ReadInteger(const Hdf5Handle& object, const char* name) const;
+  void ReadAttribute(const Hdf5Handle& object, const char* name, std::string* text) const;
+  void ReadAttribute(const Hdf5Handle& object, const char* name, double* value) const;
+  void ReadAttribute(const Hdf5Handle& object, const char* name, std::int64_t* value) const;
+  template <class T>
+  T ReadAttribute(const Hdf5Handle& object, const char* name) const {
+    T value{};
+    ReadAttribute(object, name, &value);
+    return value;
+  }
 
   /// All that was written is in the file when it returns, which is then complete.
   void Flush();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "results/placed_shapes.h"
+#include "results/results_file.h"
 
 #include <algorithm>
 #include <array>

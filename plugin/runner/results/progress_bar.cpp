@@ -5,16 +5,15 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "stopwatch.h"
 
 namespace nscdd {
 namespace {
 
 constexpr double kRedrawSeconds = 0.1;
 constexpr double kLineSeconds = 30.0;
-
-double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string FormatDuration(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));

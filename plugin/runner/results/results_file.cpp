@@ -2,17 +2,15 @@
 #include "results/results_file.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <string>
 
 #include "results/hdf5_file.h"
-#include "results/placed_shapes.h"
-#include "results/result_columns.h"
+#include "results/result_tables.h"
 #include "results/run_files.h"
-#include "results/staged_file.h"
-#include "results/xdmf.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {
@@ -79,7 +77,7 @@ std::vector<XdmfStep> StepsIn(const std::filesystem::path& path) {
   std::vector<XdmfStep> steps;
   for (const std::string& name : file.Names(file.OpenGroup("/steps"))) {
     const Hdf5Handle group = file.OpenGroup("/steps/" + name);
-    XdmfStep step{"/steps/" + name, file.ReadReal(group, "time")};
+    XdmfStep step{"/steps/" + name, file.ReadAttribute<double>(group, "time")};
     step.has_disks = file.Has(group, "disks");
     step.grains = file.RowsOf(group, step.has_disks ? "disks/id" : "grains/id");
     step.contacts = file.RowsOf(group, "contacts/body_a");
@@ -209,14 +207,7 @@ class ResultsFile::Impl {
     const Hdf5Handle root = file->OpenGroup("/");
     file->WriteAttribute(root, "format", "nscdd results");
     file->WriteAttribute(root, "format_version", kResultsFormatVersion);
-    file->WriteAttribute(root, "scene", run_.scene);
-    file->WriteAttribute(root, "solver", run_.solver);
-    file->WriteAttribute(root, "version", run_.version);
-    file->WriteAttribute(root, "subdomains_x", run_.subdomains_x);
-    file->WriteAttribute(root, "subdomains_y", run_.subdomains_y);
-    file->WriteAttribute(root, "dt", run_.dt);
-    file->WriteAttribute(root, "period", run_.period);
-    file->WriteAttribute(root, "period_origin", run_.period_origin);
+    ForEachRunAttribute(run_, [&](const char* name, const auto& value) { file->WriteAttribute(root, name, value); });
     file->CreateGroup("/steps");
   }
 
@@ -269,6 +260,23 @@ std::vector<FileExtent> ResultsFile::Keep() {
 void ResultsFile::Close() {
   const Hdf5Silence silence;
   impl_->Close();
+}
+
+void CopyResultsFile(const std::filesystem::path& from, const std::filesystem::path& to, std::optional<std::int64_t> dropped) {
+  const Hdf5Silence silence;
+  StagedFile(to).Close();
+  CheckSpace(to, std::filesystem::file_size(from));
+  const Hdf5File whole = Hdf5File::Open(from);
+  Hdf5File copy = Hdf5File::Create(to, RankGroup());
+  const std::string steps = "steps", unwanted = dropped ? fmt::format("{:06}", *dropped) : "";
+  for (const std::string& name : whole.Names(whole.OpenGroup("/"))) {
+    if (name != steps) copy.Copy(whole, "/" + name);
+  }
+  copy.CreateGroup("/" + steps);
+  for (const std::string& name : whole.Names(whole.OpenGroup("/" + steps))) {
+    if (name != unwanted) copy.Copy(whole, "/" + steps + "/" + name);
+  }
+  copy.Close();
 }
 
 }  // namespace nscdd

@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 
 #include "nscdd/error.h"
 #include "results/hdf5_file.h"
-#include "results/result_columns.h"
+#include "results/result_tables.h"
 
 namespace nscdd {
 namespace {
@@ -30,9 +29,7 @@ std::int64_t StepNumber(const std::string& name) {
 }
 
 GrainTable SortedById(const GrainTable& grains) {
-  std::vector<std::size_t> order(grains.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return grains.id[i] < grains.id[j]; });
+  const std::vector<std::size_t> order = AscendingOrder(grains.id);
   GrainTable sorted = grains;
   const auto sort = [&](auto& column) {
     const auto unsorted = column;
@@ -79,14 +76,15 @@ class ResultsReader::Impl {
  private:
   void CheckFormat() const {
     const Hdf5Handle root = file_.OpenGroup("/");
-    const bool is_ours = H5Aexists(root.id(), "format") > 0 && file_.ReadText(root, "format") == "nscdd results";
+    const bool is_ours =
+        H5Aexists(root.id(), "format") > 0 && file_.ReadAttribute<std::string>(root, "format") == "nscdd results";
     if (!is_ours) throw Error(fmt::format("{} was not written by nscdd: give another folder.", path_.string()));
-    const std::int64_t version = file_.ReadInteger(root, "format_version");
+    const std::int64_t version = file_.ReadAttribute<std::int64_t>(root, "format_version");
     if (version != kResultsFormatVersion) {
       throw Error(
           fmt::format("{} has format version {}, this program reads {}: run the scene again, or use nscdd {}, which "
                       "wrote it.",
-                      path_.string(), version, kResultsFormatVersion, file_.ReadText(root, "version")));
+                      path_.string(), version, kResultsFormatVersion, file_.ReadAttribute<std::string>(root, "version")));
     }
   }
 
@@ -99,14 +97,7 @@ ResultsReader::ResultsReader(const std::filesystem::path& folder) {
   impl_ = std::make_unique<Impl>(FileIn(folder));
   const Hdf5File& file = impl_->file();
   const Hdf5Handle root = file.OpenGroup("/");
-  run_.scene = file.ReadText(root, "scene");
-  run_.solver = file.ReadText(root, "solver");
-  run_.version = file.ReadText(root, "version");
-  run_.subdomains_x = file.ReadInteger(root, "subdomains_x");
-  run_.subdomains_y = file.ReadInteger(root, "subdomains_y");
-  run_.dt = file.ReadReal(root, "dt");
-  run_.period = file.ReadReal(root, "period");
-  run_.period_origin = file.ReadReal(root, "period_origin");
+  ForEachRunAttribute(run_, [&](const char* name, auto& value) { file.ReadAttribute(root, name, &value); });
   for (const std::string& name : file.Names(file.OpenGroup("/steps"))) steps_.push_back(StepNumber(name));
   std::sort(steps_.begin(), steps_.end());
 }
@@ -124,7 +115,7 @@ ShapeTable ResultsReader::ReadShapes() const {
 StepDescription ResultsReader::ReadStep(std::int64_t step) const {
   const Hdf5Silence silence;
   const Hdf5Handle group = impl_->StepGroup(step, steps_, "");
-  return {step, impl_->file().ReadReal(group, "time"), impl_->file().ReadReal(group, "mean_radius")};
+  return {step, impl_->file().ReadAttribute<double>(group, "time"), impl_->file().ReadAttribute<double>(group, "mean_radius")};
 }
 
 GrainTable ResultsReader::ReadGrains(std::int64_t step) const {

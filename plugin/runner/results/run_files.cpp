@@ -2,14 +2,34 @@
 #include "results/run_files.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "nscdd/error.h"
+#include "results/crc64.h"
+#include "results/mapped_file.h"
+
 namespace nscdd {
+
+FileExtent ExtentOf(const std::filesystem::path& folder, const std::string& name) {
+  const MappedFile file(folder / name);
+  return {name, file.bytes().size(), Crc64Of(file.bytes())};
+}
+
+void CheckExtent(const std::filesystem::path& folder, const FileExtent& extent) {
+  const MappedFile file(folder / extent.name);
+  if (file.bytes().size() < extent.size) {
+    throw Error(
+        fmt::format("{} has {} bytes, {} were written.", (folder / extent.name).string(), file.bytes().size(), extent.size));
+  }
+  if (Crc64Of(file.bytes().first(extent.size)) != extent.crc) {
+    throw Error(fmt::format("{} is damaged: its checksum is not that of what was written.", (folder / extent.name).string()));
+  }
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -12,7 +12,7 @@
 #include "nscdd/error.h"
 #include "results/mapped_file.h"
 #include "results/run_files.h"
-#include "results/staged_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {

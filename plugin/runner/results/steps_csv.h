@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "nscdd/report.h"
-#include "results/file_extent.h"
 #include "results/results_folder.h"
+#include "results/run_files.h"
 
 namespace nscdd {
 

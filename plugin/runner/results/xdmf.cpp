@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "results/xdmf.h"
+#include "results/results_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "results/result_columns.h"
+#include "results/result_tables.h"
 
 // What all readers of ParaView take (tests/paraview/README.md): coordinates in one data set, topologies that name their points,
 // and collections with a grid at every time, empty or not; where one lacks a time, another time is shown.

@@ -2,7 +2,6 @@
 #include "scene/body_stream.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -11,7 +10,7 @@
 #include "nscdd/error.h"
 #include "scene/disk_file.h"
 #include "scene/read_bodies.h"
-#include "state/state_reader.h"
+#include "state/state_file.h"
 
 namespace nscdd {
 namespace {
@@ -227,6 +226,77 @@ FreeIds FindFreeIds(const Scene& scene) {
   taken.reserve(own.size());
   for (const OwnId& id : own) taken.push_back(id.id);
   return {taken, needed};
+}
+
+BodyRoles::BodyRoles(const Scene& scene) : free_ids_(scene.free_ids) {
+  for (const BodySource& source : scene.bodies) {
+    const bool is_wall = std::holds_alternative<Wall>(source.what), is_cluster = std::holds_alternative<Cluster>(source.what);
+    if (source.id && is_wall) own_walls_.insert(*source.id);
+    if (source.id && is_cluster) own_clusters_.insert(*source.id);
+    if (const auto* state = std::get_if<StateBodies>(&source.what)) AddState(*state);
+    if (!TakesFreeIds(source)) continue;
+    numbered_ += source.count;
+    if (is_wall) walls_ += source.count;
+    if (!is_cluster) before_clusters_ += source.count;
+  }
+}
+
+void BodyRoles::AddState(const StateBodies& bodies) {
+  const StateReader state(bodies.path);
+  const std::vector<std::int64_t> ids = state.Ids();
+  const std::vector<BodyRole> roles = state.Roles();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (roles[i] == BodyRole::kWall) own_walls_.insert(ids[i]);
+    if (roles[i] == BodyRole::kCluster) own_clusters_.insert(ids[i]);
+  }
+}
+
+std::string_view BodyRoles::Of(std::int64_t id) const {
+  if (own_walls_.contains(id)) return "wall";
+  if (own_clusters_.contains(id)) return "cluster";
+  const std::optional<std::int64_t> number = free_ids_.NumberOf(id);
+  if (!number || *number >= numbered_) return {};
+  if (*number < walls_) return "wall";
+  return *number < before_clusters_ ? std::string_view() : "cluster";
+}
+
+namespace {
+
+/// Number of disks of a source and the sum of their radii.
+struct Sum {
+  double count = 0.0;
+  double radii = 0.0;
+};
+
+struct SourceSum {
+  double bodies;
+
+  Sum operator()(const StateBodies& state) const {
+    return state.mean_radius > 0.0 ? Sum{bodies, bodies * state.mean_radius} : Sum{};
+  }
+  Sum operator()(const SingleDisk& disk) const { return {1.0, disk.radius}; }
+  Sum operator()(const DiskFile& file) const { return {static_cast<double>(file.free), file.free_radii}; }
+  Sum operator()(const Lattice& lattice) const { return {bodies, bodies * 0.5 * (lattice.min_radius + lattice.max_radius)}; }
+  Sum operator()(const Deposition& bed) const { return {bodies, bodies * 0.5 * (bed.min_radius + bed.max_radius)}; }
+  Sum operator()(const Cluster& cluster) const {
+    Sum sum{bodies * static_cast<double>(cluster.disks.size()), 0.0};
+    for (const reference::Disk& disk : cluster.disks) sum.radii += bodies * disk.radius;
+    return sum;
+  }
+  Sum operator()(const Wall&) const { return {}; }
+};
+
+}  // namespace
+
+double MeanGrainRadius(const Scene& scene) {
+  Sum total;
+  for (const BodySource& source : scene.bodies) {
+    if (source.kind != BodyKind::kFree && !std::holds_alternative<DiskFile>(source.what)) continue;
+    const Sum sum = std::visit(SourceSum{static_cast<double>(source.count)}, source.what);
+    total.count += sum.count;
+    total.radii += sum.radii;
+  }
+  return total.radii / total.count;
 }
 
 }  // namespace nscdd

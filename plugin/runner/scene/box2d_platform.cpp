@@ -7,8 +7,8 @@
 
 #include "nscdd/box2d/box2d_adapter.h"
 #include "nscdd/error.h"
-#include "scene/grain_size.h"
-#include "scene/hosts.h"
+#include "scene/body_stream.h"
+#include "scene/platform.h"
 
 namespace nscdd {
 namespace {

@@ -8,7 +8,7 @@
 #include <cctype>
 #include <span>
 
-#include "scene/names.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

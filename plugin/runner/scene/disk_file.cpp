@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "nscdd/error.h"
-#include "scene/csv_number.h"
-#include "scene/names.h"
-#include "scene/utf8.h"
+#include "scene/csv_cells.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

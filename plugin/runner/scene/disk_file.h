@@ -12,8 +12,9 @@
 
 #include "nscdd/body_table.h"
 #include "nscdd/vector.h"
-#include "scene/csv_line.h"
+#include "scene/csv_cells.h"
 #include "scene/disk_columns.h"
+#include "scene/scene.h"
 
 namespace nscdd {
 
@@ -70,5 +71,11 @@ class DiskFileReader {
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> fields_;  ///< of line_
 };
+
+/// Writes the free disks of a finished run as a packing: id,x,y,angle,radius,vx,vy,spin, and material if the scene names
+/// materials, that [[disks]] file = "..." reads back, with the digits of `final_csv` untouched. Call it on one rank. Returns a
+/// sentence about what a table of disks cannot hold, "" if that is nothing. Throws Error when a body of the scene is not in
+/// `final_csv` or the file cannot be written.
+std::string WritePacking(const Scene& scene, const std::filesystem::path& final_csv, const std::filesystem::path& packing);
 
 }  // namespace nscdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/oddities.h"
+#include "scene/read_scene.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/packing.h"
+#include "scene/disk_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <string>
@@ -32,20 +31,15 @@ std::map<std::int64_t, MotionText> ReadMotions(const std::filesystem::path& fina
   }
   std::map<std::int64_t, MotionText> motions;
   while (std::getline(stream, line)) {
-    std::vector<std::size_t> commas;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == ',') commas.push_back(i);
-    }
-    commas.push_back(line.size());
-    std::int64_t id = 0;
-    const auto parsed = std::from_chars(line.data(), line.data() + line.size(), id);
-    if (commas.size() < 7 || parsed.ec != std::errc{}) {
+    std::vector<std::string_view> fields;
+    const std::optional<std::int64_t> id = SplitLine(line, Separator::kComma, &fields) ? CsvId(fields.front()) : std::nullopt;
+    if (fields.size() < 7 || !id) {
       throw Error(fmt::format("{}: line '{}' is cut short; run the scene again.", final_csv.string(), line));
     }
-    const auto fields = [&](std::size_t from, std::size_t to) {
-      return line.substr(commas[from] + 1, commas[to] - commas[from] - 1);
+    const auto text = [&](std::size_t first, std::size_t last) {
+      return std::string(fields[first].data(), fields[last].data() + fields[last].size());
     };
-    motions[id] = {fields(0, 3), fields(3, 6)};
+    motions[*id] = {text(1, 3), text(4, 6)};
   }
   return motions;
 }

@@ -31,4 +31,9 @@ class Platform {
 /// the platform cannot do what the scene asks for.
 std::unique_ptr<Platform> MakePlatform(const std::string& name, const Scene& scene);
 
+std::unique_ptr<Platform> MakeReferencePlatform(const Scene& scene);
+std::unique_ptr<Platform> MakeBox2dPlatform(const Scene& scene);
+/// Length of a Box2D unit on that platform [m].
+double Box2dMetresPerUnit(const Scene& scene);
+
 }  // namespace nscdd

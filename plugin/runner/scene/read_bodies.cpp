@@ -12,7 +12,7 @@
 
 #include "nscdd/error.h"
 #include "scene/disk_file.h"
-#include "scene/names.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

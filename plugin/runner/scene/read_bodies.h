@@ -16,4 +16,11 @@ BodySource ReadSource(TableReader* entry, const Scene& scene);
 /// Index of a material; throws Error "WHERE material ..." if the scene has none of this name.
 int FindMaterial(const Scene& scene, const std::string& name, const std::string& where);
 
+/// Reads what [[walls]] say and appends it to scene->bodies; materials and periodicity are in `scene` already.
+void ReadWalls(TableReader* root, Scene* scene);
+
+/// Reads [start]: the bodies of a state file, its materials, its period and its clock go into the scene. Before [periodic],
+/// [[materials]] and the bodies are read, after [time].
+void ReadStart(TableReader* root, Scene* scene);
+
 }  // namespace nscdd

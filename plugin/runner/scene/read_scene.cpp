@@ -13,11 +13,9 @@
 
 #include "nscdd/error.h"
 #include "scene/body_stream.h"
-#include "scene/names.h"
 #include "scene/read_bodies.h"
-#include "scene/read_start.h"
-#include "scene/read_walls.h"
 #include "scene/table_reader.h"
+#include "scene/text.h"
 #include "scene/toml_file.h"
 
 namespace nscdd {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/read_start.h"
+#include "scene/read_bodies.h"
 
 #include <fmt/format.h>
 
-#include "state/state_reader.h"
+#include "state/state_file.h"
 
 namespace nscdd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/read_walls.h"
+#include "scene/read_bodies.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
-
-#include "scene/read_bodies.h"
 
 namespace nscdd {
 namespace {

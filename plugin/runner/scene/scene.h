@@ -11,15 +11,32 @@
 #include "nscdd/body_table.h"
 #include "nscdd/reference/world.h"
 #include "nscdd/vector.h"
-#include "scene/deposition.h"
 #include "scene/free_ids.h"
+#include "scene/generators.h"
 #include "scene/gravity.h"
-#include "scene/lattice.h"
-#include "scene/material.h"
-#include "scene/notes.h"
-#include "scene/run_clock.h"
 
 namespace nscdd {
+
+/// What a scene calls it.
+enum class BodyRole : std::uint8_t { kDisk = 0, kCluster = 1, kWall = 2 };
+
+/// A body, complete, as platforms take it; the reference platform's description serves all of them.
+struct BodyDefinition : reference::Body {
+  BodyRole role = BodyRole::kDisk;
+  int material = 0;  ///< index in Scene::materials, where friction and restitution are from
+};
+
+struct Material {
+  std::string name;
+  double density = 1.0;      ///< [kg/m^2]
+  double friction = 0.3;     ///< [-] Coulomb coefficient; the platform combines the two of a pair
+  double restitution = 0.0;  ///< [-] Newton coefficient
+};
+
+/// What a user should hear about input that is legal and yet perhaps not what was meant: whole sentences, each said once.
+struct Notes {
+  std::vector<std::string> sentences;
+};
 
 struct TimeSettings {
   double dt = 0.0;  ///< [s]

@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
-#include "scene/utf8.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <toml++/toml.h>
-
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,6 +9,10 @@
 #include "scene/table_reader.h"
 
 namespace nscdd {
+
+/// Line (from 1) of the first dotted key of a TOML text with more than `most` parts; 0 if there is none. A parser makes nested
+/// tables of it, and recursion through them may exhaust the stack. Texts need not be valid.
+int FirstLineOfDeepKey(std::string_view text, int most);
 
 /// Throws Error "FILE:LINE: ..." if there is no such file, it is too large, no UTF-8 text or no TOML.
 toml::table ParseTomlFile(const std::filesystem::path& path);

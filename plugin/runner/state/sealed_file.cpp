@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "state/sealed_file.h"
+#include "state/state_file.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "nscdd/error.h"
 #include "results/crc64.h"
 #include "results/mapped_file.h"
-#include "results/staged_file.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {
@@ -28,11 +28,7 @@ struct SealBlock {
 };
 static_assert(sizeof(SealBlock) == 32);
 
-std::uint64_t ChecksumOf(std::span<const std::byte> bytes) {
-  Crc64 crc;
-  crc.Add(bytes.subspan(kSealSize));
-  return crc.value();
-}
+std::uint64_t ChecksumOf(std::span<const std::byte> bytes) { return Crc64Of(bytes.subspan(kSealSize)); }
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/body_definition.h"
+#include "scene/scene.h"
 
 namespace nscdd {
 
@@ -69,6 +69,31 @@ void ForEachStatePlaneColumn(Table& t, Visit&& visit) {
   visit("normal_x", "", t.plane_normal_x);
   visit("normal_y", "", t.plane_normal_y);
   visit("offset", "m", t.plane_offset);
+}
+
+/// The attributes of a state file's root.
+template <class Head, class Visit>
+void ForEachStateAttribute(Head& head, Visit&& visit) {
+  visit("version", head.program);
+  visit("plugin", head.plugin);
+  visit("scene", head.scene);
+  visit("step", head.clock.step);
+  visit("time", head.clock.time);
+  visit("even_since", head.clock.even_since);
+  visit("even_time", head.clock.even_time);
+  visit("dt", head.dt);
+  visit("period", head.period);
+  visit("period_origin", head.period_origin);
+  visit("mean_radius", head.mean_radius);
+}
+
+/// And those of a material's group.
+template <class Material, class Visit>
+void ForEachMaterialAttribute(Material& material, Visit&& visit) {
+  visit("name", material.name);
+  visit("density", material.density);
+  visit("friction", material.friction);
+  visit("restitution", material.restitution);
 }
 
 }  // namespace nscdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "state/state_reader.h"
+#include "state/state_file.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "nscdd/error.h"
 #include "results/hdf5_file.h"
 #include "results/mapped_file.h"
-#include "state/sealed_file.h"
 #include "state/state_columns.h"
 
 namespace nscdd {
@@ -111,21 +110,16 @@ class StateReader::Impl {
     return static_cast<std::int64_t>(file_.RowsOf(file_.OpenGroup(group), column));
   }
 
+  auto Attributes(const Hdf5Handle& object) const {
+    return [&](const char* name, auto& value) { file_.ReadAttribute(object, name, &value); };
+  }
+
   void ReadHead() {
     const Hdf5Handle root = file_.OpenGroup("/");
-    head_.program = file_.ReadText(root, "version");
-    head_.plugin = file_.ReadText(root, "plugin");
-    head_.scene = file_.ReadText(root, "scene");
-    head_.clock = {file_.ReadInteger(root, "step"), file_.ReadReal(root, "time"), file_.ReadInteger(root, "even_since"),
-                   file_.ReadReal(root, "even_time")};
-    head_.dt = file_.ReadReal(root, "dt");
-    head_.period = file_.ReadReal(root, "period");
-    head_.period_origin = file_.ReadReal(root, "period_origin");
-    head_.mean_radius = file_.ReadReal(root, "mean_radius");
+    ForEachStateAttribute(head_, Attributes(root));
     for (const std::string& name : file_.Names(file_.OpenGroup("/materials"))) {
       const Hdf5Handle group = file_.OpenGroup("/materials/" + name);
-      head_.materials.push_back({file_.ReadText(group, "name"), file_.ReadReal(group, "density"),
-                                 file_.ReadReal(group, "friction"), file_.ReadReal(group, "restitution")});
+      ForEachMaterialAttribute(head_.materials.emplace_back(), Attributes(group));
     }
     std::vector<std::uint8_t> run;
     file_.ReadColumn(root, "run", &run);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "state/state_writer.h"
+#include "state/state_file.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 
 #include "results/hdf5_file.h"
-#include "results/staged_file.h"
-#include "state/sealed_file.h"
+#include "results/written_file.h"
 #include "state/state_columns.h"
 
 namespace nscdd {
@@ -84,6 +83,10 @@ class StateWriter {
     };
   }
 
+  auto Attributes(const Hdf5Handle& object) {
+    return [&](const char* name, const auto& value) { file_.WriteAttribute(object, name, value); };
+  }
+
  public:
   StateWriter(const std::filesystem::path& path, const RankGroup& ranks)
       : ranks_(ranks), file_(Hdf5File::Create(path, ranks, kSealSize)) {}
@@ -92,25 +95,11 @@ class StateWriter {
     const Hdf5Handle root = file_.OpenGroup("/");
     file_.WriteAttribute(root, "format", "nscdd state");
     file_.WriteAttribute(root, "format_version", kStateVersion);
-    file_.WriteAttribute(root, "version", head.program);
-    file_.WriteAttribute(root, "plugin", head.plugin);
-    file_.WriteAttribute(root, "scene", head.scene);
-    file_.WriteAttribute(root, "step", head.clock.step);
-    file_.WriteAttribute(root, "time", head.clock.time);
-    file_.WriteAttribute(root, "even_since", head.clock.even_since);
-    file_.WriteAttribute(root, "even_time", head.clock.even_time);
-    file_.WriteAttribute(root, "dt", head.dt);
-    file_.WriteAttribute(root, "period", head.period);
-    file_.WriteAttribute(root, "period_origin", head.period_origin);
-    file_.WriteAttribute(root, "mean_radius", head.mean_radius);
+    ForEachStateAttribute(head, Attributes(root));
     file_.CreateGroup("/materials");
     for (std::size_t i = 0; i < head.materials.size(); ++i) {
-      const Material& material = head.materials[i];
       const Hdf5Handle group = file_.CreateGroup(fmt::format("/materials/{:06}", i));
-      file_.WriteAttribute(group, "name", material.name);
-      file_.WriteAttribute(group, "density", material.density);
-      file_.WriteAttribute(group, "friction", material.friction);
-      file_.WriteAttribute(group, "restitution", material.restitution);
+      ForEachMaterialAttribute(head.materials[i], Attributes(group));
     }
     const std::vector<std::uint8_t> run =
         ranks_.is_root() ? Bytes(std::as_bytes(std::span(head.run))) : std::vector<std::uint8_t>{};

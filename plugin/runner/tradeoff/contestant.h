@@ -11,11 +11,11 @@
 #include "nscdd/body_table.h"
 #include "nscdd/platform_adapter.h"
 #include "nscdd/report.h"
+#include "nscdd/step_problem.h"
 #include "nscdd/vector.h"
 #include "scene/platform.h"
 #include "scene/scene.h"
-#include "tradeoff/setting.h"
-#include "tradeoff/step_problem.h"
+#include "tradeoff/plan.h"
 
 namespace nscdd {
 

@@ -4,18 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "nscdd/error.h"
 #include "scene/gravity.h"
+#include "stopwatch.h"
 
 namespace nscdd {
 namespace {
 
 constexpr std::int64_t kMostStretches = 5;
 constexpr std::int64_t kRunIn = 10;  // steps: Box2D's position iterations halve an overlap in each
-
-using Clock = std::chrono::steady_clock;
 
 std::vector<Stretch> Spread(std::int64_t steps, std::int64_t scene) {
   if (steps >= scene) return {{1, steps, {}}};
@@ -65,7 +63,7 @@ std::string Course::Summary() const {
 }
 
 void Course::Scout(double seconds, const StopQuestion& interrupted, const std::function<void(std::int64_t)>& progress) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const auto contestant =
       MakePluginContestant(*plan_.scene, plan_.adapter, *plan_.registry, plan_.Complete(ScoutSetting(*plan_.registry, "1x1")));
   const auto is_early = [](const Stretch& s) { return s.first <= kRunIn + 1; };  // is reached from the scene's start
@@ -74,7 +72,7 @@ void Course::Scout(double seconds, const StopQuestion& interrupted, const std::f
     contestant->SetGravity(GravityAt(plan_.scene->gravity, step, plan_.scene->time.dt, plan_.scene->clock()));
     contestant->Step(plan_.scene->time.dt);
     progress(step);
-    const bool is_late = interrupted() || std::chrono::duration<double>(Clock::now() - start).count() > seconds;
+    const bool is_late = interrupted() || watch.seconds() > seconds;
     if (is_late) next->first = std::min(next->first, step + kRunIn + 1);  // the last one is here
     if (step + kRunIn + 1 < next->first) continue;
     next->before = contestant->Capture(step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "tradeoff/setting.h"
+#include "tradeoff/plan.h"
 
 namespace nscdd {
 namespace {

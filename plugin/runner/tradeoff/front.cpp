@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/front.h"
+#include "tradeoff/tradeoff_row.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "nscdd/error.h"
-#include "scene/names.h"
+#include "scene/text.h"
 
 namespace nscdd {
 namespace {

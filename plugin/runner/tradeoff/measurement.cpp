@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/measurement.h"
+#include "tradeoff/views.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace nscdd {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-}  // namespace
 
 Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_ptr<View>> views, int repetitions,
                          double seconds, MeasurementEvents events)
@@ -31,12 +24,12 @@ Measurement::Measurement(std::vector<Setting> settings, std::vector<std::unique_
 
 std::int64_t Measurement::ticks() const { return static_cast<std::int64_t>(pairs_.size()) * (1 + repetitions_); }
 
-double Measurement::Allowance() const { return std::max(0.5 * share_, (seconds_ - SecondsSince(start_)) / 8.0); }
+double Measurement::Allowance() const { return std::max(0.5 * share_, (seconds_ - watch_.seconds()) / 8.0); }
 
 void Measurement::MeasurePair(Pair* pair) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const double allowance = Allowance();
-  const auto stop = [&] { return events_.interrupted() || SecondsSince(start) > allowance; };
+  const auto stop = [&] { return events_.interrupted() || watch.seconds() > allowance; };
   TradeoffRow row = pair->view->Measure(*pair->setting, &pair->timings, stop);
   pair->timings.Fill(&row);
   pair->row = rows_.size();
@@ -56,7 +49,7 @@ void Measurement::TimePair(Pair* pair) {
 }
 
 void Measurement::Run() {
-  start_ = Clock::now();
+  watch_ = {};
   for (Pair& pair : pairs_) {
     if (events_.interrupted()) return;
     MeasurePair(&pair);

@@ -3,7 +3,7 @@
 
 #include "nscdd/error.h"
 #include "nscdd/host/solver.h"
-#include "tradeoff/process_clock.h"
+#include "stopwatch.h"
 #include "tradeoff/views.h"
 
 namespace nscdd {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/reference_run.h"
+#include "tradeoff/course.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 
 #include "nscdd/error.h"
 #include "scene/gravity.h"
+#include "stopwatch.h"
 
 namespace nscdd {
 namespace {
@@ -102,8 +102,7 @@ Setting ReferenceSetting(const SolverRegistry& registry, std::int64_t contacts) 
 
 ReferenceRun RecordReference(const Plan& plan, const Setting& setting, double seconds, const StopQuestion& interrupted,
                              const std::function<void(std::int64_t, double)>& progress, Course* course) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto used = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const Stopwatch watch;
   ReferenceRun run;
   run.setting = setting;
   Recorder recorder(plan, &run);
@@ -116,14 +115,14 @@ ReferenceRun RecordReference(const Plan& plan, const Setting& setting, double se
     const auto contestant = course->Enter(k, setting);
     std::map<ContactKey, Vec2> warm = course->StartOf(k).impulses;
     std::int64_t done = 0;
-    for (; done < stretch.count && (done == 0 || !(interrupted() || used() > until)); ++done) {
+    for (; done < stretch.count && (done == 0 || !(interrupted() || watch.seconds() > until)); ++done) {
       warm = recorder.Step(stretch.first + done, ++number, contestant.get(), warm);
       progress(stretch.first + done, run.nat.back());
     }
     course->Cut(k, done);
     number = end;
   }
-  run.seconds = used();
+  run.seconds = watch.seconds();
   return run;
 }
 

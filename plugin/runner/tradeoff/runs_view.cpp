@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nscdd/error.h"
 #include "scene/gravity.h"
-#include "tradeoff/process_clock.h"
+#include "stopwatch.h"
 #include "tradeoff/views.h"
 
 namespace nscdd {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/setting.h"
+#include "tradeoff/plan.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <charconv>
 
 #include "nscdd/error.h"
+#include "scene/table_reader.h"
+#include "scene/toml_file.h"
 
 namespace nscdd {
 namespace {
@@ -39,6 +41,18 @@ bool IsNumberOrFlag(const std::string& text) {
 /// TOML wants digits on both sides of a point; ours have none but in the mantissa.
 std::string TomlValue(const std::string& text) { return IsNumberOrFlag(text) ? text : fmt::format("\"{}\"", text); }
 
+/// Lets the solver judge an option that it has; what no plugin has is left to KnownSettings.
+void CheckValue(const TableReader& table, const Setting& setting, const std::string& key, const std::string& value,
+                const SolverRegistry& registry) {
+  const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
+  if (solver == nullptr || FindOption(*solver, key) == nullptr) return;
+  try {
+    registry.CheckOption(setting.solver, key, value);
+  } catch (const Error& e) {
+    table.Refuse(key, fmt::format("does not suit: {}", e.what()));
+  }
+}
+
 }  // namespace
 
 std::string Setting::Option(const std::string& key, const std::string& fallback) const {
@@ -46,6 +60,33 @@ std::string Setting::Option(const std::string& key, const std::string& fallback)
     if (option.first == key) return option.second;
   }
   return fallback;
+}
+
+std::vector<Setting> ReadSettings(const std::filesystem::path& file, const SolverRegistry& registry) {
+  constexpr std::int64_t kMostSubsteps = 1000;
+  const toml::table text = ParseTomlFile(file);
+  TableReader root(text, "", file);
+  std::vector<Setting> settings;
+  for (TableReader& table : root.Tables("settings")) {
+    Setting setting;
+    setting.name = table.Text("name");
+    setting.solver = table.Text("solver");
+    setting.substeps = static_cast<int>(table.Integer("substeps", 1, 1, kMostSubsteps));
+    const auto same = [&](const Setting& other) { return other.name == setting.name; };
+    if (setting.name == kSceneSetting || std::any_of(settings.begin(), settings.end(), same)) {
+      table.Refuse("name", fmt::format("is '{}' twice; give each setting its own", setting.name));
+    }
+    for (const auto& [key, node] : table.table()) {
+      if (key.str() == "name" || key.str() == "solver" || key.str() == "substeps") continue;
+      setting.options.emplace_back(std::string(key.str()), OptionText(table, key.str(), node));
+      CheckValue(table, setting, setting.options.back().first, setting.options.back().second, registry);
+    }
+    settings.push_back(std::move(setting));
+  }
+  root.Finish();
+  if (settings.empty())
+    throw Error(fmt::format("{}: has no [[settings]]; write one with name, solver and options.", file.string()));
+  return settings;
 }
 
 std::vector<Setting> KnownSettings(std::vector<Setting> settings, const SolverRegistry& registry,
@@ -79,8 +120,8 @@ std::string GridOf(const Setting& setting, const SolverRegistry& registry) {
   const std::string own = setting.Option("subdomains");
   const nscdd_solver_info* solver = FindSolver(registry, setting.solver);
   if (!own.empty() || solver == nullptr) return own.empty() ? "1x1" : own;
-  const nscdd_option* option = FindOption(*solver, "subdomains");
-  return option == nullptr ? "1x1" : option->default_value;
+  const nscdd_option* grid = FindOption(*solver, "subdomains");
+  return grid == nullptr ? "1x1" : grid->default_value;
 }
 
 std::string SolverSection(const Setting& setting) {

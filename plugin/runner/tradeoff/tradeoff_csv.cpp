@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/tradeoff_csv.h"
+#include "tradeoff/tradeoff_output.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <fstream>
 
 #include "nscdd/error.h"
-#include "results/replaced_file.h"
-#include "results/staged_file.h"
+#include "results/csv.h"
+#include "results/written_file.h"
 
 namespace nscdd {
 namespace {
-
-/// Without what would need quotes.
-std::string Clause(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
 
 std::string Options(const Setting& setting) {
   std::string text;
@@ -50,7 +41,7 @@ struct Column {
 
 const Column kColumns[] = {
     NSCDD_NUMBER("view", view),
-    Column{"setting", [](const TradeoffRow& row) { return Clause(row.setting.name); }},
+    Column{"setting", [](const TradeoffRow& row) { return CsvClause(row.setting.name); }},
     NSCDD_NUMBER("solver", setting.solver),
     Column{"options", [](const TradeoffRow& row) { return Options(row.setting); }},
     NSCDD_NUMBER("substeps", setting.substeps),
@@ -82,7 +73,7 @@ const Column kColumns[] = {
     NSCDD_SECONDS(seconds_least),
     NSCDD_SECONDS(seconds_most),
     NSCDD_NUMBER("repetitions", repetitions),
-    Column{"reason", [](const TradeoffRow& row) { return Clause(row.reason); }},
+    Column{"reason", [](const TradeoffRow& row) { return CsvClause(row.reason); }},
 };
 
 #undef NSCDD_NUMBER

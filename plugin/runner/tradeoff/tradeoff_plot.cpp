@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/tradeoff_plot.h"
+#include "tradeoff/tradeoff_output.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,9 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "results/replaced_file.h"
-#include "tradeoff/front.h"
-#include "tradeoff/tradeoff_text.h"
+#include "results/written_file.h"
+#include "tradeoff/tradeoff_row.h"
 
 namespace nscdd {
 namespace {

@@ -6,17 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "nscdd/natural_residual.h"
+
 namespace nscdd {
 namespace {
 
 double Sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-/// Largest; not a number if one of them is not.
-double Worst(const std::vector<double>& values) {
-  double worst = 0.0;
-  for (const double x : values) worst = std::isnan(x) || x > worst ? x : worst;
-  return worst;
-}
+double Worst(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0, Larger); }
 
 /// Numbers that are none would vanish in a sorted list: they count as infinite.
 double MedianOf(std::vector<double> values) {
@@ -32,6 +29,13 @@ int Badness(SolveStatus status) {
 }
 
 }  // namespace
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
 
 void Timings::Fill(TradeoffRow* row) const {
   const std::size_t first = runs_.size() > 1 ? 1 : 0;

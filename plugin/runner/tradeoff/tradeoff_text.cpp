@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tradeoff/tradeoff_text.h"
+#include "tradeoff/tradeoff_output.h"
 
 #include <fmt/format.h>
 
