@@ -6,6 +6,7 @@
 #include "expect_error.h"
 #include "option_text.h"
 #include "solver_infos.h"
+#include "text/nearest_name.h"
 
 namespace nscdd {
 namespace {
@@ -154,10 +155,10 @@ TEST(OptionTable, MirrorsTheTableForC) {
 
 TEST(Nearest, CountsEdits) {
   const std::vector<std::string> names = {"alpha", "beta"};
-  EXPECT_EQ(Nearest("alhpa", names), "alpha");
-  EXPECT_EQ(Nearest("bet", names), "beta");
-  EXPECT_EQ(Nearest("completely different", names), "");
-  EXPECT_EQ(Nearest(std::string(1 << 20, 'x'), names), "");
+  EXPECT_EQ(NearestName("alhpa", names), "alpha");
+  EXPECT_EQ(NearestName("bet", names), "beta");
+  EXPECT_EQ(NearestName("completely different", names), "");
+  EXPECT_EQ(NearestName(std::string(1 << 20, 'x'), names), "");
 }
 
 }  // namespace
