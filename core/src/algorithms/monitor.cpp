@@ -176,7 +176,8 @@ std::string Monitor::Standing() const {
 
 double Monitor::LoadScale() const {
   const double s = total_.sum_load / ChangeEnergy(total_, problem_.scales);
-  return std::isnan(s) ? 1.0 : std::clamp(1.0 - s, 0.5, 2.0);
+  // Where a few contacts violate more than all others do, one factor for all would spoil the others.
+  return report_.residuals.power <= 1.0 ? std::clamp(1.0 - s, 0.5, 2.0) : 1.0;
 }
 
 bool Monitor::IsSqueezed() const { return report_.residuals.power > kSqueezed; }

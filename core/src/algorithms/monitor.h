@@ -44,7 +44,7 @@ class Monitor {
 
   /// Ends an iteration that cannot go on: the status is stalled.
   void GiveUp(std::string reason) { Stop(SolveStatus::kStalled, std::move(reason)); }
-  /// 1 - S of the last test (in [1/2, 2]): with that factor of all impulses the load_error would vanish.
+  /// 1 - S of the last test, in [1/2, 2]: with that factor of all impulses S would vanish. 1 where power is above 1.
   double LoadScale() const;
   const Residuals& residuals() const { return report_.residuals; }
 
