@@ -45,12 +45,16 @@ double Dense(const ContactProblem& p, const std::vector<Vec2>& impulse) {
 }
 
 TEST(SelfStress, OfADiskBetweenPrescribedOnes) {
-  ContactProblem p = FlowerProblem(2);  // two opposite petals
+  ContactProblem p = FlowerProblem(4);  // the first and the last petal are opposite
+  for (std::size_t i = 1; i < p.mass.size(); ++i) p.mass[i] = p.inertia[i] = INFINITY;
   for (double& mu : p.contacts.friction) mu = 0.0;
-  EXPECT_NEAR(UndeterminedShare(p, {{1.0, 0.0}, {1.0, 0.0}}), 1.0, 1e-12);
-  EXPECT_NEAR(UndeterminedShare(p, {{3.0, 0.0}, {1.0, 0.0}}), std::sqrt(0.8), 1e-12);  // 2 and 2 of 3 and 1
-  EXPECT_NEAR(UndeterminedShare(p, {{1.0, 0.0}, {0.0, 0.0}}), 0.0, 1e-12);             // an open contact bears none
-  EXPECT_EQ(UndeterminedShare(p, {{0.0, 0.0}, {0.0, 0.0}}), 0.0);
+  const auto share = [&](double first, double last) {
+    return UndeterminedShare(p, {{first, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {last, 0.0}});
+  };
+  EXPECT_NEAR(share(1.0, 1.0), 1.0, 1e-12);
+  EXPECT_NEAR(share(3.0, 1.0), std::sqrt(0.8), 1e-12);  // 2 and 2 of 3 and 1
+  EXPECT_NEAR(share(1.0, 0.0), 0.0, 1e-12);             // an open contact bears none
+  EXPECT_EQ(share(0.0, 0.0), 0.0);
 }
 
 TEST(SelfStress, IsTheProjectionOnTheNullSpace) {
