@@ -191,6 +191,7 @@ TEST(Status, QuadWaitsForTheInterfaceEvenWithoutActiveContacts) {
   Watched w(SampleProblem({}));
   StoppingOptions o;
   o.criterion = Criterion::kQuad;
+  for (double& v : w.state.subdomains.front().velocity) v = 0.0;  // nothing is violated
   Monitor monitor(w.sample.problem, o, &w.serial);
   EXPECT_FALSE(monitor.Stops(1, w.statistics, {{.sum_squares = 1.0, .copies = 4.0}}, w.state));
   EXPECT_TRUE(monitor.Stops(2, w.statistics, {{.sum_squares = 1e-32, .copies = 4.0}}, w.state));  // rounding of a mean

@@ -27,6 +27,8 @@ constexpr double kUnevenAtMost = 0.1;  // of the scale of nat_max
 /// Impulses that violate the laws with ten times the energy of all they do grow where there is no room for the bodies.
 constexpr double kSqueezed = 10.0;
 constexpr double kDriftShare = 1.0 / 3.0;
+constexpr int kScaleEvery = 5;           // iterations: as many differences the acceleration needs between two factors
+constexpr double kLoadIsNear = 0.004;    // |S|: below, a common factor disturbs the acceleration more than it gives
 constexpr int kSqueezedPatience = 1000;  // iterations without a better test, then
 
 const char* Name(Criterion criterion) {
@@ -139,7 +141,7 @@ void Monitor::SeeDrift(int iteration) {
   const double drift = kDriftShare * Norm(now - std::prev(later)->momentum);
   Residuals& r = report_.residuals;
   if (drift > r.load_error * scale) {
-    r.wall_error += drift - r.load_error * scale;
+    r.wall_error += 3.0 * (drift - r.load_error * scale);
     r.load_error = drift / scale;
   }
 }
@@ -174,9 +176,14 @@ std::string Monitor::Standing() const {
   return text;
 }
 
-double Monitor::LoadScale() const {
+double Monitor::LoadScale() {
   const double s = total_.sum_load / ChangeEnergy(total_, problem_.scales);
-  return std::isnan(s) ? 1.0 : std::clamp(1.0 - s, 0.5, 2.0);
+  // Where a few contacts violate more than all others do, one factor for all would spoil the others.
+  const bool helps = report_.residuals.power <= 1.0 && std::abs(s) > kLoadIsNear;
+  const int iteration = report_.history.back().iteration;
+  if (!helps || iteration - scaled_at_ < kScaleEvery) return 1.0;
+  scaled_at_ = iteration;
+  return std::clamp(1.0 - s, 0.5, 2.0);
 }
 
 bool Monitor::IsSqueezed() const { return report_.residuals.power > kSqueezed; }
@@ -250,10 +257,11 @@ bool Monitor::Stops(int iteration, const std::vector<SweepStatistics>& statistic
   }
 
   // nat is infinite, which is no divergence, before the first impulse of bodies without loads.
-  const bool grew = measure > 1.0 && measure > 1e6 * first_;
+  const double criterion = nscdd::Measure(options_.criterion, r);
+  if (first_criterion_ < 0.0) first_criterion_ = criterion;
+  const bool grew = criterion > 1.0 && criterion > 1e6 * first_criterion_;
   if (grew) {
-    Stop(SolveStatus::kDiverged,
-         fmt::format("{}; what is tested is {:.3g} after {:.3g} at the first test", Standing(), measure, first_));
+    Stop(SolveStatus::kDiverged, fmt::format("{} after {:.3g} at the first test", Standing(), first_criterion_));
     return true;
   }
   if (RunsAway()) {

@@ -44,8 +44,9 @@ class Monitor {
 
   /// Ends an iteration that cannot go on: the status is stalled.
   void GiveUp(std::string reason) { Stop(SolveStatus::kStalled, std::move(reason)); }
-  /// 1 - S of the last test (in [1/2, 2]): with that factor of all impulses the load_error would vanish.
-  double LoadScale() const;
+  /// 1 - S of the last test, in [1/2, 2]: with that factor of all impulses S would vanish. 1 where power is above 1, and
+  /// where S is below 0.004, and for five iterations after another factor.
+  double LoadScale();
   const Residuals& residuals() const { return report_.residuals; }
 
   /// The report, with counts of the final state: that of the last test, or the best one kept if it was better. Where the
@@ -80,9 +81,11 @@ class Monitor {
   std::vector<TestedMomentum> momenta_;  // of all tests; empty without Begin()
   NaturalParts worst_;                   // of this rank's subdomains
   double first_ = -1.0;                  // what was tested at the first test
+  double first_criterion_ = -1.0;        // the criterion alone, likewise
   double first_nat_max_ = -1.0;          // at the first measurement; < 0: none yet
   double best_ = 0.0;
   int best_iteration_ = 0;
+  int scaled_at_ = 0;
   bool keep_best_;
   PartitionedState best_state_;
   Residuals best_residuals_;

@@ -87,7 +87,7 @@ double UndeterminedShare(const ContactProblem& problem, const std::vector<Vec2>&
   // Conjugate gradients on the normal equations of min |D^1/2 r - A^T y| (CGLS); what is left is the projection.
   std::vector<double> gradient = a.Times(rest), direction = gradient;
   double gamma = Norm2(gradient);
-  const double enough = 1e-26 * gamma;
+  const double enough = 1e-28 * whole;  // |A| is about 1: below is rounding
   for (std::size_t k = 0; k < 30 * a.bodies() && gamma > enough; ++k) {
     const std::vector<double> q = a.TransposedTimes(direction);
     const double step = gamma / Norm2(q);

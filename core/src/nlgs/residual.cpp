@@ -17,6 +17,9 @@ double Friction(const Row& c) {
   return 0.0;
 }
 
+/// Impulses so near the edge of the cone slide; v_t is not small there because r_t is rounded.
+constexpr double kEdge = 0.01;
+
 /// p_c of residual.h [J].
 double ViolatedPower(const Delassus& w, double u, double mu, Local r, Local v) {
   const double normal = u < 0.0 ? -u * Larger(r.n, -u / w.nn) : u * r.n;
@@ -27,7 +30,7 @@ double ViolatedPower(const Delassus& w, double u, double mu, Local r, Local v) {
 double AddContact(const Delassus& w, double offset, double mu, Local r, Local v, NaturalParts* parts) {
   const NaturalError error = NaturalErrorOf(w, offset, mu, {r.n, r.t}, {v.n, v.t});
   const double gap_speed = v.n + offset;
-  const bool slides = std::abs(r.t) >= mu * r.n;
+  const bool slides = std::abs(r.t) >= (1.0 - kEdge) * mu * r.n;
   parts->sum_e2 += error.e2;
   parts->sum_r2 += r.n * r.n + r.t * r.t;
   parts->sum_power += ViolatedPower(w, gap_speed, mu, r, v);
@@ -123,7 +126,9 @@ void SetNatural(const NaturalParts& parts, const ResidualScales& scales, Residua
   const auto over_change = [&](double sum) { return sum == 0.0 ? 0.0 : sum / change; };
   residuals->power = over_change(parts.sum_power);
   residuals->load_error = std::abs(over_change(parts.sum_load));
-  residuals->wall_error = (residuals->load_error + residuals->power) * ImpulseScale(parts, scales);
+  // Before the loads arrive E is small: the whole of what loads can do is the scale then.
+  const double scale = std::sqrt(Larger(change, scales.exchange) * parts.sum_mass);
+  residuals->wall_error = 3.0 * (residuals->load_error + residuals->power) * scale;
 }
 
 StagnationMeasures Stagnation(const SweepStatistics& s, const ResidualScales& scales) {

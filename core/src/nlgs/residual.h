@@ -16,7 +16,7 @@ namespace nscdd {
 /// Neither bounds the error of what many contacts do together: nat is met by ever larger r where no solution exists, and both
 /// overlook a load that has not gone through a long chain. Beside them, with u = v_n + b_n and E = |V - V_f|_M^2, are
 ///     P = sum_c p_c / E,   p_c = r_n max(0, u) + max(r_n, -u / W_nn) max(0, -u) + r_t v_t + mu r_n |v_t|   (no term is
-///     negative) S = sum_c s_c / E,   s_c = r_n u + r_t v_t + (sliding: mu r_n |v_t|)
+///     negative) S = sum_c s_c / E,   s_c = r_n u + r_t v_t + (|r_t| >= 0.99 mu r_n: mu r_n |v_t|)
 /// P is the error in the constitutive relation (de Saxce's bipotential). Exact impulses r* and velocities V* obey, without
 /// friction, |V - V*|_M^2 <= sum r_n max(0, u) + (r_n* - r_n) max(0, -u). In a pile at rest, whose V* = 0, S is the part of the
 /// load that the prescribed bodies lack. load_error is the largest of |S| and of a third of what the second half of the
@@ -45,7 +45,8 @@ double NatMax(double worst, const ResidualScales& scales);
 double ChangeEnergy(const NaturalParts& parts, const ResidualScales& scales);
 /// sqrt(E mass) [N s]: at least the impulse on all prescribed bodies, and the weight dt g of a pile at rest.
 double ImpulseScale(const NaturalParts& parts, const ResidualScales& scales);
-/// nat, nat_max, power = P, load_error = |S| and wall_error = (|S| + P) sqrt(E mass) from the parts of all subdomains.
+/// nat, nat_max, power = P, load_error = |S| and wall_error from the parts of all subdomains. Measured from above
+/// in cold and warm solves of columns, boxes and lattices, wall_error = 3 (|S| + P) sqrt(mass max(E, exchange)).
 void SetNatural(const NaturalParts& parts, const ResidualScales& scales, Residuals* residuals);
 /// p_c of each contact [J].
 std::vector<double> ViolatedPowers(const SubdomainProblem& problem, const SubdomainState& state);
