@@ -77,6 +77,7 @@ void Measure(::benchmark::State& run, LazyPacking* lazy, const Pass& pass) {
   run.SetItemsProcessed(run.iterations() * passes * contacts);
   run.counters["contacts"] = static_cast<double>(contacts);
   run.counters["active"] = packing.active;
+  run.counters["packet"] = static_cast<double>(contacts) / static_cast<double>(problem.packet_begin.size() - 1);
 }
 
 /// A benchmark of two loops that do not compute the same would compare nothing.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check.py tree|lines|format ROOT, check.py plugin FILE.so   prints what breaks the structure (tree, plugin) or is not written
-as the sources are (lines, format); exit code 1 if anything does, 77 without clang-format."""
+"""check.py tree|lines|format ROOT, check.py plugin FILE.so, check.py wide FILE.o   prints what breaks the structure (tree,
+plugin), what an object for one instruction set must not have (wide), or what is not written as the sources are (lines, format);
+exit code 1 if anything does, 77 without clang-format."""
 
 import pathlib
 import sys
@@ -20,6 +21,7 @@ def check_format(root):
 CHECKS = {
     "tree": structure.check_tree,
     "plugin": structure.check_plugin_symbols,
+    "wide": structure.check_wide_object,
     "lines": lambda root: sources.check_lines(pathlib.Path(root)),
     "format": check_format,
 }

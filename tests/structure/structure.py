@@ -144,6 +144,22 @@ def check_plugin_symbols(plugin):
         yield f"{plugin} exports {', '.join(symbols) or 'nothing'}; it must export {', '.join(rules.PLUGIN_SYMBOLS)} alone."
 
 
+def check_wide_object(path):
+    """An object of one instruction set: it fuses nothing, and gives away no function that other objects may share."""
+    code = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", path], capture_output=True, text=True)
+    names = subprocess.run(["nm", "--format=posix", path], capture_output=True, text=True)
+    if code.returncode != 0 or names.returncode != 0:
+        yield f"objdump and nm cannot read {path}: {(code.stderr + names.stderr).strip()}"
+        return
+    fused = sorted(set(re.findall(r"\tv?fn?m(?:add|sub)\w*", code.stdout)))
+    if fused:
+        yield f"{path} has fused operations, other bits than the plain loop: {', '.join(f.strip() for f in fused)}."
+    for line in names.stdout.splitlines():
+        name, kind = line.split()[:2]
+        if kind in "VWu" and name != "_GLOBAL_OFFSET_TABLE_":
+            yield f"{path} defines {name} for whoever links it first, also for processors that lack its instructions."
+
+
 def check_tree(root):
     root = pathlib.Path(root)
     return [*check_includes(root), *check_types(root), *check_text(root), *check_top_level(root)]

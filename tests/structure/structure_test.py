@@ -2,7 +2,9 @@
 """The checks themselves: a small sound tree passes, and each way to spoil it is found. structure_test.py SHARED_LIBRARY"""
 
 import pathlib
+import platform
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -139,6 +141,17 @@ class StructureTest(unittest.TestCase):
         self.assertEqual(len(findings), 1)
         self.assertIn("must export nscdd_plugin_entry alone", findings[0])
         self.assertIn("nm cannot read", next(structure.check_plugin_symbols(__file__)))
+
+    @unittest.skipIf(platform.machine() not in ("x86_64", "AMD64"), "other instructions")
+    def test_fused_and_shared_code_is_found(self):
+        source, wide = self.root / "wide.cpp", self.root / "wide.o"
+        source.write_text("inline int Shared() { return 1; }\nint (*keep)() = Shared;\n"
+                          "double Fused(double a, double b, double c) { return __builtin_fma(a, b, c); }\n")
+        subprocess.run(["c++", "-O2", "-mfma", "-c", source, "-o", wide], check=True)
+        findings = sorted(structure.check_wide_object(wide))
+        self.assertEqual(len(findings), 2, findings)
+        self.assertIn("Shared", findings[0])
+        self.assertIn("vfmadd", findings[1])
 
 
 if __name__ == "__main__":

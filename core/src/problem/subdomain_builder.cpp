@@ -32,6 +32,7 @@ SubdomainBuilder::SubdomainBuilder(const ProblemTables& tables, ContactModel mod
       model_(model),
       shared_(std::adjacent_find(tables.sharing->begin.begin(), tables.sharing->begin.end(),
                                  [](int a, int b) { return b - a > 1; }) != tables.sharing->begin.end()),
+      scheduler_(tables.inverse_mass),
       copy_of_row_(tables.inverse_mass.size(), -1) {}
 
 /// Row of the copy of `body`; `arm` leads from its centre of mass to the touching point.
@@ -48,8 +49,9 @@ std::int32_t SubdomainBuilder::CopyOf(std::int32_t body, Vec2 arm, SubdomainProb
   problem->inverse_mass.push_back(m * tables_.inverse_mass[body]);
   if (Inertias(model_) == 2) problem->inverse_mass.push_back(m * tables_.inverse_inertia[body]);
   const Vec2 touching = own_copy ? Vec2{v.vx - v.spin * arm.y, v.vy + v.spin * arm.x} : Linear(v);
-  problem->free_velocity.push_back(touching.x);
-  problem->free_velocity.push_back(touching.y);
+  // + 0 turns -0 into 0, whose sign no sum with zero changes.
+  problem->free_velocity.push_back(prescribed ? touching.x + 0.0 : touching.x);
+  problem->free_velocity.push_back(prescribed ? touching.y + 0.0 : touching.y);
   if (Dofs(model_) == 3) problem->free_velocity.push_back(prescribed ? 0.0 : v.spin);
   if (shared_) problem->multiplicity.push_back(m);
   if (!own_copy) copy_of_row_[body] = copy;
@@ -88,11 +90,13 @@ Row SubdomainBuilder::MakeRow(std::int32_t contact, SubdomainProblem* problem) {
   return row;
 }
 
-SubdomainProblem SubdomainBuilder::Build(int subdomain, std::vector<std::int32_t> rows) {
+SubdomainProblem SubdomainBuilder::Build(int subdomain, const std::vector<std::int32_t>& rows) {
   SubdomainProblem problem;
   problem.model = model_;
   problem.subdomain = subdomain;
-  problem.contact = std::move(rows);
+  PacketOrder order = scheduler_.Order(rows, tables_.contacts->a, tables_.contacts->b);
+  problem.contact = std::move(order.contact);
+  problem.packet_begin = std::move(order.begin);
   VisitRows(problem, [&](auto& out) {
     using Row = typename std::decay_t<decltype(out)>::value_type;
     out.reserve(problem.contact.size());

@@ -7,6 +7,7 @@
 
 #include "nscdd/contact_table.h"
 #include "partition/sharing.h"
+#include "problem/packet_order.h"
 #include "problem/subdomain_problem.h"
 
 namespace nscdd {
@@ -29,8 +30,8 @@ class SubdomainBuilder {
  public:
   SubdomainBuilder(const ProblemTables& tables, ContactModel model);
 
-  /// `rows`: the subdomain's contacts in the order of the sweep.
-  SubdomainProblem Build(int subdomain, std::vector<std::int32_t> rows);
+  /// `rows`: the subdomain's contacts, in the order that the sweep keeps for every body.
+  SubdomainProblem Build(int subdomain, const std::vector<std::int32_t>& rows);
 
  private:
   std::int32_t CopyOf(std::int32_t body, Vec2 arm, SubdomainProblem* problem);
@@ -40,6 +41,7 @@ class SubdomainBuilder {
   ProblemTables tables_;
   ContactModel model_;
   bool shared_;
+  PacketScheduler scheduler_;
   std::vector<std::int32_t> copy_of_row_;  // -1: none yet
 };
 

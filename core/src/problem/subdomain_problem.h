@@ -90,8 +90,9 @@ struct SubdomainProblem {
   std::vector<double> free_velocity;       ///< V_f, Dofs(model) per copy
   std::vector<std::int32_t> multiplicity;  ///< m_i of each copy; empty when all are 1
 
-  std::vector<std::int32_t> contact;  ///< row of each contact in the rank's table of contacts, in the order of the sweep
-  std::vector<NormalRow> normal;      // the one that the model names is filled
+  std::vector<std::int32_t> contact;       ///< row of each contact in the rank's table of contacts, in the order of the sweep
+  std::vector<std::int32_t> packet_begin;  ///< PacketOrder::begin of that order
+  std::vector<NormalRow> normal;           // the one that the model names is filled
   std::vector<NormalArmsRow> normal_arms;
   std::vector<FrictionRow> friction;
   std::vector<FrictionArmsRow> friction_arms;
