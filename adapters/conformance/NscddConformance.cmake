@@ -9,6 +9,7 @@ set_property(GLOBAL PROPERTY NSCDD_CONFORMANCE_CHECKS
     description ids_stable bodies_round_trip clusters_round_trip loads prescribed_motion
     pairs_complete pairs_complete_after_drift pairs_sorted order_free_of_history filters_honoured
     gap_in_double frame_from_a_to_b coincident_centres wall_skin_zero levers_and_arms
+    sweep_pairs sweep_meetings sweep_walls
     detects_at_given_poses commit_visible host_edits_adopted two_instances refusals_speak
     distributed_detection periodic_images both_images
     head_on_pair sliding_disk rolling_disk)

@@ -119,7 +119,7 @@ class CallbackAdapter::Transport final : public BodyTransport {
 
 CallbackAdapter::CallbackAdapter(const nscdd_host* host) : host_(host) {
   if (host == nullptr) throw Error("the host is a null pointer; give the address of an nscdd_host");
-  CheckAbiHeader(host->header, sizeof(nscdd_host), "nscdd_host");
+  CheckAbiHeader(host->header, HostSize(host->header.abi_minor), "nscdd_host");
   CheckFunctions(*host);
   nscdd_host_description description{};
   Call("describe", [&](const nscdd_host& h) { return h.describe(h.user, &description); });
@@ -168,11 +168,32 @@ void CallbackAdapter::DetectContacts(const PoseView& poses, double alert, Contac
   Call("detect_contacts", [&](const nscdd_host& host) {
     return host.detect_contacts(host.user, poses.id.size(), poses.id.data(), AsDoubles(poses.pose.data()), alert, &arrays);
   });
-  const std::string who = Who("detect_contacts");
-  CopyContacts(arrays, poses.id.size(), {}, who, contacts);
+  CopyFound(arrays, poses.id.size(), Who("detect_contacts"), contacts);
+}
+
+void CallbackAdapter::CopyFound(const nscdd_contacts& arrays, std::size_t bodies, const std::string& who,
+                                ContactTable* contacts) const {
+  CopyContacts(arrays, bodies, {}, who, contacts);
+  contacts->moment.clear();
   if (contacts->has_images() && description_.period == 0.0) {
     throw Error(fmt::format("{}: it gives images, but describe says that it is not periodic; leave image null", who));
   }
+}
+
+void CallbackAdapter::SweepContacts(const MotionView& motion, ContactTable* contacts) {
+  if (host_->header.abi_minor < 3 || host_->sweep_contacts == nullptr) {
+    PlatformAdapter::SweepContacts(motion, contacts);
+    return;
+  }
+  nscdd_contacts arrays{};
+  const double* moment = nullptr;
+  Call("sweep_contacts", [&](const nscdd_host& host) {
+    return host.sweep_contacts(host.user, motion.id.size(), motion.id.data(), AsDoubles(motion.pose.data()),
+                               AsDoubles(motion.velocity.data()), motion.reach.data(), motion.dt, &arrays, &moment);
+  });
+  const std::string who = Who("sweep_contacts");
+  CopyFound(arrays, motion.id.size(), who, contacts);
+  CopyColumn(moment, "moment", contacts->size(), who, &contacts->moment);
 }
 
 void CallbackAdapter::Commit(const StepResult& result) {

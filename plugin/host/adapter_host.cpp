@@ -66,6 +66,24 @@ struct AdapterHost::Functions {
     });
   }
 
+  static std::int32_t SweepContacts(void* user, std::uint64_t count, const std::int64_t* id, const double* pose,
+                                    const double* velocity, const double* reach, double dt, nscdd_contacts* target,
+                                    const double** moment) {
+    AdapterHost& self = Self(user);
+    return self.Guard([&] {
+      ContactTable& found = self.contacts_;
+      self.adapter_->SweepContacts({{id, count},
+                                    {reinterpret_cast<const Pose*>(pose), count},
+                                    {reinterpret_cast<const Twist*>(velocity), count},
+                                    {reach, count},
+                                    dt},
+                                   &found);
+      if (!found.has_moments()) found.moment.assign(found.size(), 0.0);
+      *target = ShowContacts(found);
+      *moment = found.moment.data();
+    });
+  }
+
   static std::int32_t Commit(void* user, const nscdd_step_result* result) {
     AdapterHost& self = Self(user);
     return self.Guard([&] {
@@ -115,12 +133,14 @@ struct AdapterHost::Functions {
 
 AdapterHost::AdapterHost(PlatformAdapter* adapter) : adapter_(adapter) {
   table_ = WithHeader<nscdd_host>();
+  table_.header.abi_minor = 3;
   table_.user = this;
   table_.describe = Functions::Describe;
   table_.read_bodies = Functions::ReadBodies;
   table_.detect_contacts = Functions::DetectContacts;
   table_.commit = Functions::Commit;
   table_.last_error = Functions::LastError;
+  table_.sweep_contacts = Functions::SweepContacts;
   if (!adapter->Describe().distributed_bodies) return;
   table_.pack = Functions::Pack;
   table_.insert = Functions::Insert;

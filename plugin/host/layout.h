@@ -31,7 +31,7 @@ double* AsDoubles(T* first) {
   return reinterpret_cast<double*>(first);
 }
 
-/// No structure that a host fills has grown since minor 0, so plugins of every minor take them.
+/// Plugins of every minor take the structures that have not grown since minor 0; whoever fills what is newer says so.
 template <class Structure>
 Structure WithHeader() {
   Structure structure{};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <type_traits>
 
 #include "layout.h"
@@ -109,6 +110,14 @@ Solver::Solver(std::shared_ptr<const PluginLibrary> library, const SolverArgumen
   }
   auto create = WithHeader<nscdd_create_arguments>();
   create.host = arguments.host;
+  if (const std::uint32_t minor = library_->plugin().header.abi_minor;
+      create.host != nullptr && create.host->header.abi_minor > minor) {
+    // An older plugin does not look at what is new; the host may be older than this header, and smaller.
+    older_host_ = std::make_unique<nscdd_host>();
+    std::memcpy(older_host_.get(), create.host, std::min<std::size_t>(sizeof(nscdd_host), create.host->header.struct_size));
+    older_host_->header.abi_minor = minor;
+    create.host = older_host_.get();
+  }
   create.distributed = arguments.communicator ? 1 : 0;
   create.communicator = arguments.communicator.value_or(0);
   create.solver = arguments.solver.c_str();

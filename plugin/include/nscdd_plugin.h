@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 #define NSCDD_ABI_MAJOR 1u
-#define NSCDD_ABI_MINOR 3u /* 1: load_states; 2: NSCDD_FIXED; 3: check_option, reports that grow */
+#define NSCDD_ABI_MINOR 3u /* 1: load_states; 2: NSCDD_FIXED; 3: check_option, reports that grow, sweep_contacts */
 #define NSCDD_ENTRY_SYMBOL "nscdd_plugin_entry"
 
 typedef enum nscdd_result {
@@ -128,6 +128,13 @@ typedef struct nscdd_host {
   int32_t (*remove)(void* user, int64_t id);
   /* sentence of the last function that did not return NSCDD_OK; never null */
   const char* (*last_error)(void* user);
+  /* Since minor 3; may be null. Contacts on the bodies' way through a step of dt [s]: SweepContacts in
+   * nscdd/platform_adapter.h. pose (at the beginning) and velocity: 3 numbers each, reach [m]: 1. *moment gets an array of
+   * contacts->count numbers: the part of the step, in [0, 1], at which each contact's gap, normal, levers and arms are taken.
+   * Without this function detect_contacts is asked at the beginning of the step, with the largest sum of two reaches as alert
+   * distance. */
+  int32_t (*sweep_contacts)(void* user, uint64_t count, const int64_t* id, const double* pose, const double* velocity,
+                            const double* reach, double dt, nscdd_contacts* contacts, const double** moment);
 } nscdd_host;
 
 /* ------------------------------------------------------------------ plugin: what a solver gives to a host */
@@ -245,6 +252,11 @@ typedef struct nscdd_report {
   double load_error;
   double wall_error;
   double imbalance;
+  int64_t redetections;
+  int64_t second_solves;
+  int64_t beyond_reach;
+  int64_t beyond_reach_body;
+  int64_t unsettled;
 } nscdd_report;
 
 /* A column of a table: `count` numbers of 8 bytes each, real (double) or integer (int64_t). */

@@ -137,7 +137,10 @@ SteppingOptions SteppingOf(const SolverChoice& choice, const SolverRegistry& reg
   read("feedback_slop", &o.feedback_slop);
   read("feedback_cap", &o.feedback_cap);
   const std::string law = OptionValue(choice, registry, "normal_law");
-  o.normal_law = law == "strict" ? NormalLaw::kStrict : law == "feedback" ? NormalLaw::kFeedback : NormalLaw::kGap;
+  o.normal_law = law == "strict"     ? NormalLaw::kStrict
+                 : law == "feedback" ? NormalLaw::kFeedback
+                 : law == "gap"      ? NormalLaw::kGap
+                                     : NormalLaw::kImpact;
   return o;
 }
 

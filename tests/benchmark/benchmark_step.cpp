@@ -16,6 +16,7 @@
 #include "stopwatch.h"
 #include "tradeoff/contestant.h"
 #include "tradeoff/course.h"
+#include "tradeoff/tradeoff_row.h"
 
 namespace nscdd::benchmark {
 namespace {

@@ -40,6 +40,10 @@ class FaultyAdapter final : public PlatformAdapter {
     FailIn(Fault::kDetect);
     inner_.DetectContacts(poses, alert, contacts);
   }
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override {
+    FailIn(Fault::kDetect);
+    inner_.SweepContacts(motion, contacts);
+  }
   void Commit(const StepResult& result) override {
     FailIn(Fault::kCommit);
     inner_.Commit(result);

@@ -51,9 +51,10 @@ class Run:
         return set(self.column("status"))
 
 
-# What the paper does not have, off: its iterations are plain ones.
+# What the paper does not have, off: its iterations are plain ones, its steps have one stage.
 PLAIN = {"nscd": {"acceleration": "none"}, "nscdd": {"acceleration": "none"},
          "fea": {"acceleration": "none", "jump_guard": "false"}}
+LAW = {"normal_law": "gap"}
 
 
 class Program:
@@ -79,7 +80,7 @@ class Program:
             command += ["--cold"]
         if save_every:
             command += ["--save-every", save_every]
-        for key, value in (PLAIN.get(solver, {}) | options).items():
+        for key, value in (LAW | PLAIN.get(solver, {}) | options).items():
             command += ["--option", f"{key}={value}"]
         if sys.stderr.isatty():
             print(f"\r\033[K{self.count:4d}  {name}", end="", file=sys.stderr, flush=True)

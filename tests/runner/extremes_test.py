@@ -40,7 +40,7 @@ class Extremes(ProgramTest):
         self.assertEqual(len(same), 1)  # the unit of length is no matter
 
     def test_nat_says_when_light_bodies_are_lost_under_heavy_ones(self):
-        nscdd("extremes", "--quick", "--solvers", "nscd/none", "--out", self.folder)
+        nscdd("extremes", "--quick", "--solvers", "nscdd/none", "--out", self.folder)
         row = next(r for r in read_csv(self.folder / "extremes.csv") if "1e+08, nat 1e-4" in r["case"])
         self.assertEqual((row["status"], row["verdict"]), ("converged", "limit"))
         self.assertIn("criterion nat_max sees it", row["sentence"])

@@ -24,7 +24,8 @@ Population Disks(const std::vector<Vec2>& centres) {
 
 const Grid kTwoCells({0.0, 0.0}, {20.0, 10.0}, 2, 1);  // cut at x = 10
 const Blocks kTwoRanks(2, 2);
-const Reach kReach{1.0, 0.1};
+const std::vector<double> kReaches(20, 0.05);
+const Reach kReach{1.0, 0.05, kReaches};
 
 HaloPlan Plan(const Population& p) { return MakeHaloPlan(p, p.bodies.pose, kTwoCells, kTwoRanks, kReach, 0); }
 
@@ -81,9 +82,9 @@ TEST(HaloPlan, ABodyThatCrossesTheCutChangesItsOwner) {
 
 // The site of a disk and a large one is far from the small disk's centre.
 TEST(HaloPlan, TheReachKnowsTheLargestDisk) {
-  EXPECT_GE((Reach{1.0, 0.1}.Of(1.0, 1.0)), 1.1);
-  EXPECT_GE((Reach{9.0, 0.1}.Of(1.0, 1.0)), 0.5 * (1.0 + 9.0 + 0.1));
-  EXPECT_GE((Reach{9.0, 0.1}.Of(1.0, 3.0)), 3.0 + 0.5 * (9.0 + 0.1));  // a cluster's disks are away from its centre
+  EXPECT_GE((Reach{1.0, 0.05, {}}.Of(1.0, 1.0, 0.05)), 1.1);
+  EXPECT_GE((Reach{9.0, 0.05, {}}.Of(1.0, 1.0, 0.05)), 0.5 * (1.0 + 9.0 + 0.1));
+  EXPECT_GE((Reach{9.0, 0.05, {}}.Of(1.0, 3.0, 0.05)), 3.0 + 0.5 * (9.0 + 0.1));  // a cluster's disks are away from its centre
 }
 
 }  // namespace

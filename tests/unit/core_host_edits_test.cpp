@@ -232,7 +232,7 @@ TEST(Continuation, BytesThatAreNoStateAreRefusedAndChangeNothing) {
 // Cuts follow the bodies only at the steps that were asked for.
 TEST(Repartition, EveryKSteps) {
   for (const int every : {1, 3}) {
-    Host host({}, Nscdd(2, 1, every));
+    Host host({.normal_law = NormalLaw::kGap}, Nscdd(2, 1, every));  // cuts where contacts are detected
     host.AddDisk(1, {0.0, 0.0}, 0.5);
     host.AddDisk(2, {5.6, 0.0}, 0.5);
     host.AddDisk(3, {10.0, 0.0}, 0.5).velocity.vx = 1.0;  // the cut lies half-way between 1 and 3

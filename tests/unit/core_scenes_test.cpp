@@ -134,7 +134,7 @@ TEST(WarmStart, BeginsInsideTheCones) {
 // A dumb-bell that turns hits a floor with one end: that end leaves with e times the speed it came with.
 TEST(Clusters, TurningEndRebounds) {
   for (const std::int64_t floor : {0, 2}) {
-    Host host({.theta = 1.0}, Exact());  // contacts are detected where the bodies are
+    Host host({.theta = 1.0, .normal_law = NormalLaw::kGap}, Exact());  // contacts are detected where the bodies are
     host.AddFloor(floor);
     const double angle = -0.1;
     const reference::Disk ends[2] = {{{-1.0, 0.0}, 0.5}, {{1.0, 0.0}, 0.5}};

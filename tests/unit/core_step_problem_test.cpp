@@ -36,7 +36,7 @@ ContactProblem ProblemOf(Host* host, double dt) {
   }
   host->adapter->DetectContacts({bodies.id, detection}, host->stepping.alert_distance, &p.contacts);
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    const NormalCondition normal = NormalConditionOf(host->stepping, bodies, p.contacts, c, dt);
+    const NormalCondition normal = NormalConditionOf(host->stepping, bodies, {}, p.contacts, c, dt);
     p.offset.push_back(normal.offset);
     p.approach_speed = std::max(p.approach_speed, -normal.approach);
   }

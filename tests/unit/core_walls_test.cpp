@@ -65,7 +65,7 @@ TEST(MovingWall, LiftCarriesADisk) {
 // A turning paddle: wall point s from the axis moves with spin * s along the normal.
 TEST(TurningWall, PaddleHitsWithItsLever) {
   for (const double friction : {0.0, 0.4}) {
-    Host host({}, Exact());
+    Host host({.normal_law = NormalLaw::kGap}, Exact());
     reference::Body& paddle = AddSegment(&host, 0, 5.0, friction);
     paddle.velocity.spin = 0.8;
     const reference::Body& disk = host.AddDisk(1, {3.0, 0.5}, 0.5, friction);
@@ -135,7 +135,7 @@ TEST(TurningWall, FinalGapIsThatOfTheTurnedWall) {
 
 // Off-centre disks of a turning wall: the velocity of the touching point, with the arm of the member disk.
 TEST(TurningWall, OffCentreDiskOfAWheel) {
-  Host host({}, Exact());
+  Host host({.normal_law = NormalLaw::kGap}, Exact());
   reference::Body wheel = reference::MakeWall(0, {1.0, 1.0, 0.0});
   wheel.disks.push_back({{2.0, 0.0}, 0.5});
   wheel.velocity.spin = 0.5;
@@ -151,7 +151,7 @@ TEST(TurningWall, OffCentreDiskOfAWheel) {
 
 TEST(TurningWall, SubdomainsDoNotMatter) {
   const auto run = [](const AlgorithmOptions& algorithm) {
-    Host host({}, algorithm);
+    Host host({.normal_law = NormalLaw::kGap}, algorithm);
     host.world.gravity = {0.0, -kG};
     reference::Body& paddle = AddSegment(&host, 0, 8.0, 0.3);
     paddle.velocity = {0.1, 0.2, 0.05};

@@ -173,23 +173,9 @@ TEST(RunSummary, NonConvergenceIsOneLoudLine) {
 TEST(RunSummary, FastBodiesAreMentioned) {
   RunSummary summary;
   StepReport row;
-  row.max_drift = 2.0;
-  row.alert_distance = 1.0;
-  row.mean_radius = 3.0;
-  summary.Add(row);
-  EXPECT_NE(FormatSummary(summary).find("FAST BODIES: in 1 step "), std::string::npos);
-}
-
-// Half-way through the step a body may be behind a thin wall, however far contacts are sought.
-TEST(RunSummary, BodiesThatMoveByARadiusAreMentioned) {
-  RunSummary summary;
-  StepReport row;
-  row.max_drift = 2.0;
-  row.alert_distance = 10.0;
-  row.mean_radius = 3.0;
   summary.Add(row);
   EXPECT_EQ(FormatSummary(summary).find("FAST BODIES"), std::string::npos);
-  row.mean_radius = 1.0;
+  row.beyond_reach = 2;
   summary.Add(row);
   EXPECT_NE(FormatSummary(summary).find("FAST BODIES: in 1 step "), std::string::npos);
 }

@@ -211,7 +211,11 @@ void Box2dAdapter::ReadBodies(BodyTable* bodies) {
 }
 
 void Box2dAdapter::DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) {
-  impl_->finder.Find(poses, alert, impl_->filter, contacts);
+  impl_->finder.Detect(poses, alert, impl_->filter, contacts);
+}
+
+void Box2dAdapter::SweepContacts(const MotionView& motion, ContactTable* contacts) {
+  impl_->finder.Sweep(motion, impl_->filter, contacts);
 }
 
 void Box2dAdapter::Commit(const StepResult& result) {

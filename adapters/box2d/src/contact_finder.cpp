@@ -17,23 +17,59 @@ Vec2 Turn(const BodyPlace& body, Vec2 a) { return {body.cosine * a.x - body.sine
 
 }  // namespace
 
-void ContactFinder::Find(const PoseView& poses, double alert, const PairFilter& filter, ContactTable* contacts) {
-  CheckPoses(poses, alert);
+void ContactFinder::Detect(const PoseView& poses, double alert, const PairFilter& filter, ContactTable* contacts) {
+  if (!(alert >= 0.0 && std::isfinite(alert))) {
+    throw Error(fmt::format("DetectContacts got the alert distance {}: give a finite length >= 0 in metres.", alert));
+  }
+  CheckPoses(poses);
   PlaceBodies(poses);
-  if (period_ > 0.0) CheckPeriod(alert);
-  UpdateBoxes(alert);
+  placement_.is_swept = false;
+  alert_ = alert;
+  for (BodyPlace& body : placement_.bodies) body.reach = 0.5 * alert;
+  Find(filter, contacts);
+}
+
+void ContactFinder::Sweep(const MotionView& motion, const PairFilter& filter, ContactTable* contacts) {
+  CheckPoses({motion.id, motion.pose});
+  PlaceBodies({motion.id, motion.pose});
+  PlaceMotion(motion);
+  Find(filter, contacts);
+}
+
+void ContactFinder::PlaceMotion(const MotionView& motion) {
+  if (motion.velocity.size() != motion.id.size() || motion.reach.size() != motion.id.size()) {
+    throw Error(fmt::format("SweepContacts got {} ids, {} velocities and {} reaches: give one of each for each body.",
+                            motion.id.size(), motion.velocity.size(), motion.reach.size()));
+  }
+  placement_.is_swept = true;
+  alert_ = std::numeric_limits<double>::infinity();
+  const auto& rows = store_->Rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Twist& v = motion.velocity[i];
+    BodyPlace& body = placement_.bodies[static_cast<std::size_t>(rows[i].slot)];
+    body.reach = motion.reach[i];
+    body.move = motion.dt * Linear(v);
+    body.turn = motion.dt * v.spin;
+    alert_ = std::min(alert_, 2.0 * body.reach);
+    if (body.reach >= 0.0 && std::isfinite(body.move.x + body.move.y + body.turn + body.reach)) continue;
+    throw Error(fmt::format("SweepContacts got body {} at ({}, {}, {}) for {} s and a reach of {} m: numbers must be finite.",
+                            motion.id[i], v.vx, v.vy, v.spin, motion.dt, motion.reach[i]));
+  }
+  if (rows.empty()) alert_ = 0.0;
+}
+
+void ContactFinder::Find(const PairFilter& filter, ContactTable* contacts) {
+  if (period_ > 0.0) CheckPeriod();
+  UpdateBoxes();
   if (broad_phase_.is_any_touched()) {
     UpdateCandidates();
     SortCandidates();
     broad_phase_.FinishUpdate();
   }
-  narrow_phase_.Run(*store_, placement_, filter, candidates_, alert, contacts);
+  narrow_phase_.Run(*store_, placement_, filter, candidates_, contacts);
 }
 
-void ContactFinder::CheckPoses(const PoseView& poses, double alert) const {
-  if (!(alert >= 0.0 && std::isfinite(alert))) {
-    throw Error(fmt::format("DetectContacts got the alert distance {}: give a finite length >= 0 in metres.", alert));
-  }
+void ContactFinder::CheckPoses(const PoseView& poses) const {
   const auto& rows = store_->Rows();
   if (poses.id.size() != rows.size() || poses.pose.size() != rows.size()) {
     throw Error(
@@ -55,10 +91,11 @@ void ContactFinder::CheckPoses(const PoseView& poses, double alert) const {
   }
 }
 
-void ContactFinder::CheckPeriod(double alert) const {
+void ContactFinder::CheckPeriod() const {
   for (const auto& [id, slot] : store_->Rows()) {
     const BodyRecord& r = store_->record(slot);
     if (r.kind == BodyKind::kFree) {
+      const double alert = 2.0 * placement_.body(slot).reach;
       if (2.0 * r.bounding_radius + alert < period_) continue;
       throw Error(
           fmt::format("Box2D body {} is {} m wide and would touch its own image: the period, {} m, must be longer than that "
@@ -152,20 +189,20 @@ bool ContactFinder::NeedsRestart(double alert) const {
   return off + half_extent_ > 1e5 * unit && off > half_extent_;
 }
 
-void ContactFinder::UpdateBoxes(double alert) {
-  if (NeedsRestart(alert)) {
+void ContactFinder::UpdateBoxes() {
+  if (NeedsRestart(alert_)) {
     const double radius = store_->mean_radius();
     broad_phase_.Restart(middle_, radius > 0.0 ? radius : 1.0, period_, period_origin_);
     candidates_.clear();
     alert_of_start_ = 0.0;
   }
-  alert_of_start_ = std::max(alert_of_start_, alert);
+  alert_of_start_ = std::max(alert_of_start_, alert_);
   broad_phase_.Resize(store_->shape_count());
   for (const std::int32_t shape : store_->changed_shapes()) broad_phase_.Remove(shape);
   store_->ClearChanges();
-  const double margin = 0.5 * alert + 2.0 * placement_.slack;
   for (const auto& [id, slot] : store_->Rows()) {
     const BodyRecord& r = store_->record(slot);
+    const double margin = placement_.body(slot).reach + 2.0 * placement_.slack;
     for (std::int32_t i = r.first_shape; i < r.first_shape + r.shape_count; ++i) {
       if (store_->shape(i).kind != ShapeKind::kNone) broad_phase_.Update(i, r.kind == BodyKind::kFree, BoxOf(i, margin));
     }
@@ -185,12 +222,16 @@ Box ContactFinder::BoxOf(std::int32_t index, double margin) const {
     const double far = BroadPhase::kFar * broad_phase_.unit();
     const Vec2 normal = Turn(body, wall.normals[0]);
     Box box{-far, -far, far, far};
+    if (placement_.is_swept && body.turn != 0.0) return box;  // it sweeps further the further away
     if (normal.x == 0.0 && normal.y > 0.0) box.upper_y = body.centre.y + wall.offset + margin;
     if (normal.x == 0.0 && normal.y < 0.0) box.lower_y = body.centre.y - wall.offset - margin;
     return box;
   }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{kInfinity, kInfinity, -kInfinity, -kInfinity};
+  if (placement_.is_swept && body.turn != 0.0 && std::isinf(store_->record(shape.body).bounding_radius)) {
+    for (const Vec2 point : wall.points) margin = std::max(margin, std::abs(body.turn) * Norm(point) + body.reach);
+  }
   for (const Vec2 point : wall.points) {
     const Vec2 p = body.centre + Turn(body, point);
     box = {std::min(box.lower_x, p.x - margin), std::min(box.lower_y, p.y - margin), std::max(box.upper_x, p.x + margin),

@@ -12,21 +12,25 @@
 
 namespace nscdd::box2d {
 
-/// Every contact within an alert distance at given poses. What it keeps between calls makes it fast, and changes no result.
+/// Every contact within an alert distance at given poses, or within the reaches of bodies on their way. What it keeps between
+/// calls makes it fast, and changes no result.
 class ContactFinder {
  public:
   ContactFinder(BodyStore* store, double period, double period_origin)
       : store_(store), period_(period), period_origin_(period_origin) {}
 
-  void Find(const PoseView& poses, double alert, const PairFilter& filter, ContactTable* contacts);
+  void Detect(const PoseView& poses, double alert, const PairFilter& filter, ContactTable* contacts);
+  void Sweep(const MotionView& motion, const PairFilter& filter, ContactTable* contacts);
 
  private:
-  void CheckPoses(const PoseView& poses, double alert) const;
-  void CheckPeriod(double alert) const;
+  void Find(const PairFilter& filter, ContactTable* contacts);
+  void CheckPoses(const PoseView& poses) const;
+  void CheckPeriod() const;
   void PlaceBodies(const PoseView& poses);
+  void PlaceMotion(const MotionView& motion);
   void PlaceShapes(std::int32_t slot);
   bool NeedsRestart(double alert) const;
-  void UpdateBoxes(double alert);
+  void UpdateBoxes();
   Box BoxOf(std::int32_t shape, double margin) const;
   void UpdateCandidates();
   void AddCandidate(const Overlap& overlap);
@@ -39,6 +43,7 @@ class ContactFinder {
   Placement placement_;
   double half_extent_ = 0.0;  // [m] of the domain of free bodies and its middle
   Vec2 middle_;
+  double alert_ = 0.0;  // [m] twice the smallest reach
   double alert_of_start_ = 0.0;
   std::vector<Candidate> candidates_;
   std::vector<Candidate> sorted_;

@@ -67,6 +67,12 @@ Wall MakePolygon(std::vector<Vec2> points) {
   return wall;
 }
 
+WallPoint PointOfLine(const Wall& segment, Vec2 from, Vec2 side) {
+  const Vec2 left = segment.normals[0], normal = Dot(left, side) < 0.0 ? -1.0 * left : left;
+  const double distance = Dot(normal, from - segment.points[0]);
+  return {from - distance * normal, normal, distance, false};
+}
+
 WallPoint ClosestPoint(ShapeKind kind, const Wall& wall, Vec2 from, double tolerance) {
   if (kind == ShapeKind::kSegment) return OfSegment(wall, from, tolerance);
   if (kind == ShapeKind::kPolygon) return OfPolygon(wall, from);

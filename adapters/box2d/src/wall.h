@@ -21,4 +21,7 @@ Wall MakePolygon(std::vector<Vec2> points);
 /// `tolerance` [m]: points of a segment closer than this to an end are the end.
 WallPoint ClosestPoint(ShapeKind kind, const Wall& wall, Vec2 from, double tolerance);
 
+/// The point of the segment's whole line instead, from the side that `side` leads to.
+WallPoint PointOfLine(const Wall& segment, Vec2 from, Vec2 side);
+
 }  // namespace nscdd::box2d

@@ -33,6 +33,10 @@ Fault SpoilBodies(std::string name, std::function<void(BodyTable*)> spoil) {
 Fault SpoilContacts(std::string name, std::function<void(const PoseView&, ContactTable*)> spoil) {
   Fault fault;
   fault.name = std::move(name);
+  fault.sweep = [spoil](PlatformAdapter* whole, const MotionView& motion, ContactTable* contacts) {
+    whole->SweepContacts(motion, contacts);
+    if (contacts->size() > 0) spoil({motion.id, motion.pose}, contacts);
+  };
   fault.detect = [spoil = std::move(spoil)](PlatformAdapter* whole, const PoseView& poses, double alert,
                                             ContactTable* contacts) {
     whole->DetectContacts(poses, alert, contacts);
@@ -53,6 +57,10 @@ void BrokenAdapter::ReadBodies(BodyTable* bodies) { fault_.read ? fault_.read(wh
 
 void BrokenAdapter::DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) {
   fault_.detect ? fault_.detect(whole_, poses, alert, contacts) : whole_->DetectContacts(poses, alert, contacts);
+}
+
+void BrokenAdapter::SweepContacts(const MotionView& motion, ContactTable* contacts) {
+  fault_.sweep ? fault_.sweep(whole_, motion, contacts) : whole_->SweepContacts(motion, contacts);
 }
 
 void BrokenAdapter::Commit(const StepResult& result) { fault_.commit ? fault_.commit(whole_, result) : whole_->Commit(result); }

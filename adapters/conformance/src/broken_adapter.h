@@ -17,6 +17,7 @@ struct Fault {
   std::function<AdapterDescription(const PlatformAdapter&)> describe;
   std::function<void(PlatformAdapter*, BodyTable*)> read;
   std::function<void(PlatformAdapter*, const PoseView&, double, ContactTable*)> detect;
+  std::function<void(PlatformAdapter*, const MotionView&, ContactTable*)> sweep;
   std::function<void(PlatformAdapter*, const StepResult&)> commit;
   std::function<void(BodyTransport*, std::int64_t, std::span<const std::byte>)> insert;
   std::function<void(BodyTransport*, std::int64_t)> remove;
@@ -35,6 +36,7 @@ class BrokenAdapter final : public PlatformAdapter {
   AdapterDescription Describe() const override;
   void ReadBodies(BodyTable* bodies) override;
   void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) override;
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override;
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override;
 

@@ -99,7 +99,8 @@ std::size_t RowOf(const BodyTable& bodies, std::int64_t id) {
 
 std::vector<Check> AllChecks() {
   std::vector<Check> all;
-  for (auto part : {BodyChecks, PairChecks, GeometryChecks, HostChecks, RefusalChecks, DistributionChecks, ClosedFormChecks}) {
+  for (auto part :
+       {BodyChecks, PairChecks, GeometryChecks, SweepChecks, HostChecks, RefusalChecks, DistributionChecks, ClosedFormChecks}) {
     for (Check& check : part()) all.push_back(std::move(check));
   }
   return all;

@@ -76,6 +76,7 @@ struct Check {
 std::vector<Check> BodyChecks();
 std::vector<Check> PairChecks();
 std::vector<Check> GeometryChecks();
+std::vector<Check> SweepChecks();
 std::vector<Check> HostChecks();
 std::vector<Check> RefusalChecks();
 std::vector<Check> DistributionChecks();

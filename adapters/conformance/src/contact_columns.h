@@ -28,6 +28,7 @@ void ForEachColumn(ContactTable* contacts, Apply apply) {
   }
   apply(&contacts->site);
   apply(&contacts->flat);
+  if (contacts->has_moments()) apply(&contacts->moment);
   apply(&contacts->friction);
   apply(&contacts->restitution);
 }

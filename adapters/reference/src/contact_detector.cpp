@@ -15,10 +15,25 @@ namespace {
 
 std::size_t Index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-void CheckArguments(const PoseView& poses, double alert) {
-  if (!(alert >= 0.0 && std::isfinite(alert))) {
-    throw Error(fmt::format("DetectContacts got the alert distance {}: give a finite length >= 0 in metres.", alert));
+void CheckAlert(double alert) {
+  if (alert >= 0.0 && std::isfinite(alert)) return;
+  throw Error(fmt::format("DetectContacts got the alert distance {}: give a finite length >= 0 in metres.", alert));
+}
+
+void CheckMotion(const MotionView& motion) {
+  if (motion.velocity.size() != motion.id.size() || motion.reach.size() != motion.id.size()) {
+    throw Error(fmt::format("SweepContacts got {} ids, {} velocities and {} reaches: give one of each for each body.",
+                            motion.id.size(), motion.velocity.size(), motion.reach.size()));
   }
+  for (std::size_t i = 0; i < motion.id.size(); ++i) {
+    const Twist& v = motion.velocity[i];
+    if (motion.reach[i] >= 0.0 && std::isfinite(motion.dt * (v.vx + v.vy + v.spin) + motion.reach[i])) continue;
+    throw Error(fmt::format("SweepContacts got body {} at ({}, {}, {}) for {} s and a reach of {} m: numbers must be finite.",
+                            motion.id[i], v.vx, v.vy, v.spin, motion.dt, motion.reach[i]));
+  }
+}
+
+void CheckLengths(const PoseView& poses) {
   if (poses.id.size() != poses.pose.size()) {
     throw Error(
         fmt::format("DetectContacts got {} ids and {} poses: give one pose for each id.", poses.id.size(), poses.pose.size()));
@@ -50,15 +65,29 @@ void CheckRow(const PoseView& poses, std::size_t row, std::int64_t id) {
 }  // namespace
 
 void ContactDetector::Detect(const World& world, const PoseView& poses, double alert, ContactTable* contacts) {
-  CheckArguments(poses, alert);
+  CheckAlert(alert);
+  alert_ = 0.5 * alert;
+  motion_ = nullptr;
+  Find(world, poses, contacts);
+}
+
+void ContactDetector::Sweep(const World& world, const MotionView& motion, ContactTable* contacts) {
+  CheckMotion(motion);
+  motion_ = &motion;
+  Find(world, {motion.id, motion.pose}, contacts);
+}
+
+void ContactDetector::Find(const World& world, const PoseView& poses, ContactTable* contacts) {
+  CheckLengths(poses);
   period_ = world.period;
   period_origin_ = world.period_origin;
   PlaceShapes(world, poses);
-  if (period_ > 0.0) CheckPeriod(world, alert);
-  FillClasses(alert);
+  if (period_ > 0.0) CheckPeriod(world);
+  FillClasses();
   candidates_.clear();
-  FindDiskPairs(alert);
-  FindWallPairs(alert);
+  meetings_.clear();
+  FindDiskPairs();
+  FindWallPairs();
   SortCandidates();
   FillTable(contacts);
 }
@@ -68,19 +97,19 @@ void ContactDetector::PlaceShapes(const World& world, const PoseView& poses) {
   disks_.clear();
   walls_.clear();
   double farthest = period_ + std::abs(period_origin_);
-  largest_radius_ = 0.0;
+  largest_ = 0.0;
   for (const Body& body : world.bodies()) {
     const auto row = static_cast<std::int32_t>(rows_.size());
     CheckRow(poses, rows_.size(), body.id);
     const Pose& q = poses.pose[rows_.size()];
     const bool centred = body.disks.size() == 1 && body.disks[0].centre.x == 0.0 && body.disks[0].centre.y == 0.0;
     const double c = centred ? 1.0 : std::cos(q.angle), s = centred ? 0.0 : std::sin(q.angle);
-    rows_.push_back({body.filter, body.kind == BodyKind::kFree, body.friction, body.restitution});
+    rows_.push_back(RowOf(body, rows_.size()));
     std::int32_t shape = 0;
     for (const Disk& disk : body.disks) {
       const Vec2 arm = centred ? Vec2{} : Vec2{c * disk.centre.x - s * disk.centre.y, s * disk.centre.x + c * disk.centre.y};
       disks_.push_back({Centre(q) + arm, arm, disk.radius, row, shape++});
-      largest_radius_ = std::max(largest_radius_, disk.radius);
+      largest_ = std::max(largest_, disk.radius + rows_.back().reach);
     }
     farthest = std::max({farthest, std::abs(q.x), std::abs(q.y)});
     if (!body.segments.empty() || !body.half_planes.empty()) PlaceWalls(body, q, row);
@@ -89,20 +118,31 @@ void ContactDetector::PlaceShapes(const World& world, const PoseView& poses) {
   slack_ = 1e-14 * farthest;
 }
 
-void ContactDetector::CheckPeriod(const World& world, double alert) const {
-  for (const Body& body : world.bodies()) {
-    double reach = 0.0;
-    for (const Disk& disk : body.disks) reach = std::max(reach, Norm(disk.centre) + disk.radius);
-    if (body.kind == BodyKind::kFree && !(2.0 * reach + alert < period_)) {
+ContactDetector::Row ContactDetector::RowOf(const Body& body, std::size_t row) const {
+  Row r{body.filter, body.kind == BodyKind::kFree, body.friction, body.restitution, alert_, {}, 0.0};
+  if (motion_ == nullptr) return r;
+  r.reach = motion_->reach[row];
+  r.move = motion_->dt * Linear(motion_->velocity[row]);
+  r.turn = motion_->dt * motion_->velocity[row].spin;
+  return r;
+}
+
+void ContactDetector::CheckPeriod(const World& world) const {
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const Body& body = world.bodies()[row];
+    double width = 0.0;
+    for (const Disk& disk : body.disks) width = std::max(width, 2.0 * (Norm(disk.centre) + disk.radius));
+    const double alert = 2.0 * rows_[row].reach;
+    if (body.kind == BodyKind::kFree && !(width + alert < period_)) {
       throw Error(
           fmt::format("Body {} of the reference world is {} m wide and would touch its own image: make the period {} longer "
                       "than that and the alert distance {}.",
-                      body.id, 2.0 * reach, period_, alert));
+                      body.id, width, period_, alert));
     }
   }
-  if (!(2.0 * largest_radius_ + alert < period_)) {
-    throw Error(fmt::format("The reference world's period {} is too short for disks of radius {} and the alert distance {}.",
-                            period_, largest_radius_, alert));
+  if (!(2.0 * largest_ < period_)) {
+    throw Error(fmt::format("The reference world's period {} is too short for disks of radius {} with the alert distance.",
+                            period_, largest_));
   }
   for (const PlacedWall& wall : walls_) {
     const std::int64_t id = world.bodies()[Index(wall.row)].id;
@@ -117,17 +157,17 @@ void ContactDetector::CheckPeriod(const World& world, double alert) const {
   }
 }
 
-void ContactDetector::AddEntry(SizeClass* size_class, std::int32_t disk, double alert) const {
+void ContactDetector::AddEntry(SizeClass* size_class, std::int32_t disk, double radius) const {
   const PlacedDisk& d = disks_[Index(disk)];
-  GridEntry entry{d.centre.x, d.centre.y, d.radius, disk, 0, false};
-  size_class->max_radius = std::max(size_class->max_radius, d.radius);
+  GridEntry entry{d.centre.x, d.centre.y, radius, disk, 0, false};
+  size_class->max_radius = std::max(size_class->max_radius, radius);
   if (period_ > 0.0) {
     const double periods = std::floor((d.centre.x - period_origin_) / period_);
     if (std::abs(periods) > 1e9) throw Error(fmt::format("A body is {} periods away: bring it back into the period.", periods));
     entry.shift = static_cast<std::int32_t>(-periods);
     entry.x = d.centre.x - periods * period_;
     size_class->entries.push_back(entry);
-    if (entry.x - period_origin_ > d.radius + largest_radius_ + alert + slack_) return;
+    if (entry.x - period_origin_ > radius + largest_ + slack_) return;
     entry.x = d.centre.x - (periods - 1.0) * period_;
     ++entry.shift;
     entry.is_copy = true;
@@ -135,7 +175,7 @@ void ContactDetector::AddEntry(SizeClass* size_class, std::int32_t disk, double 
   size_class->entries.push_back(entry);
 }
 
-void ContactDetector::FillClasses(double alert) {
+void ContactDetector::FillClasses() {
   for (auto& [key, old] : classes_) {
     old.max_radius = 0.0;
     old.entries.clear();
@@ -143,14 +183,19 @@ void ContactDetector::FillClasses(double alert) {
   int size = -1;
   SizeClass* size_class = nullptr;
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    const int own_size = std::ilogb(largest_radius_ / disks_[i].radius);
+    const double radius = disks_[i].radius + rows_[Index(disks_[i].row)].reach;
+    const int own_size = std::ilogb(largest_ / radius);
     if (own_size != size) size_class = &classes_[size = own_size];
-    AddEntry(size_class, static_cast<std::int32_t>(i), alert);
+    AddEntry(size_class, static_cast<std::int32_t>(i), radius);
   }
   std::erase_if(classes_, [](const auto& item) { return item.second.entries.empty(); });
   for (auto& [key, used] : classes_) {
-    used.grid.Build(&used.entries, 2.0 * used.max_radius + alert + slack_);
+    used.grid.Build(&used.entries, 2.0 * used.max_radius + slack_);
   }
+}
+
+double ContactDetector::ReachOf(std::int32_t row, std::int32_t other) const {
+  return rows_[Index(row)].reach + rows_[Index(other)].reach;
 }
 
 bool ContactDetector::Touchable(std::int32_t row, std::int32_t other) const {
@@ -158,9 +203,9 @@ bool ContactDetector::Touchable(std::int32_t row, std::int32_t other) const {
   return row != other && (one.is_free || two.is_free) && MayTouch(one.filter, two.filter);
 }
 
-void ContactDetector::AddDiskPair(const GridEntry& one, const GridEntry& other, double alert) {
+void ContactDetector::AddDiskPair(const GridEntry& one, const GridEntry& other) {
   const Vec2 d{other.x - one.x, other.y - one.y};
-  const double reach = one.radius + other.radius + alert + slack_;
+  const double reach = one.radius + other.radius + slack_;
   if (Dot(d, d) > reach * reach * (1.0 + 1e-12) || (one.is_copy && other.is_copy)) return;
   const bool swapped = disks_[Index(other.disk)].row < disks_[Index(one.disk)].row;
   const GridEntry &entry_a = swapped ? other : one, &entry_b = swapped ? one : other;
@@ -168,12 +213,12 @@ void ContactDetector::AddDiskPair(const GridEntry& one, const GridEntry& other, 
   if (!Touchable(a.row, b.row)) return;
   const std::int32_t image = entry_b.shift - entry_a.shift;
   const Vec2 exact{b.centre.x + image * period_ - a.centre.x, b.centre.y - a.centre.y};
-  if (std::sqrt(Dot(exact, exact)) - (a.radius + b.radius) > alert) return;
+  if (std::sqrt(Dot(exact, exact)) - (a.radius + b.radius) > ReachOf(a.row, b.row)) return;
   candidates_.push_back({a.row, b.row, a.shape, b.shape, image, entry_a.disk, entry_b.disk});
 }
 
-void ContactDetector::FindDiskPairs(double alert) {
-  const auto add = [&](const GridEntry& one, const GridEntry& other) { AddDiskPair(one, other, alert); };
+void ContactDetector::FindDiskPairs() {
+  const auto add = [&](const GridEntry& one, const GridEntry& other) { AddDiskPair(one, other); };
   for (auto large = classes_.begin(); large != classes_.end(); ++large) {
     large->second.grid.VisitPairs(add);
     for (auto small = std::next(large); small != classes_.end(); ++small) {

@@ -11,6 +11,13 @@ std::size_t Index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool IsZero(Vec2 a) { return a.x == 0.0 && a.y == 0.0; }
 
+Vec2 ArmAt(double turn, Vec2 arm) { return turn == 0.0 || IsZero(arm) ? arm : Rotate(turn, arm); }
+
+WallPoint OfPoint(Vec2 x) {
+  const double distance = Norm(x);
+  return {{}, distance > 0.0 ? (1.0 / distance) * x : Vec2{0.0, 1.0}, distance, true};
+}
+
 void Resize(std::size_t count, bool periodic, ContactTable* contacts) {
   contacts->a.resize(count);
   contacts->b.resize(count);
@@ -25,6 +32,7 @@ void Resize(std::size_t count, bool periodic, ContactTable* contacts) {
   contacts->arm_b.resize(count);
   contacts->site.resize(count);
   contacts->flat.resize(count);
+  contacts->moment.resize(count);
   contacts->friction.resize(count);
   contacts->restitution.resize(count);
 }
@@ -52,20 +60,38 @@ void ContactDetector::FillTable(ContactTable* contacts) const {
     contacts->arm_a.clear();
     contacts->arm_b.clear();
   }
+  if (motion_ == nullptr) contacts->moment.clear();
+}
+
+double ContactDetector::MeetingOf(const PlacedDisk& a, const PlacedDisk& b, Vec2 between) const {
+  if (motion_ == nullptr) return 0.0;
+  const Row &of_a = rows_[Index(a.row)], &of_b = rows_[Index(b.row)];
+  const Vec2 move = of_b.move - of_a.move;
+  const bool is_straight = (of_a.turn == 0.0 || IsZero(a.arm)) && (of_b.turn == 0.0 || IsZero(b.arm));
+  if (is_straight) return DiskMeeting(between, move, a.radius + b.radius);
+  return ShapeMeeting({between - b.arm + a.arm, move, a.arm, b.arm, of_a.turn, of_b.turn, 0.0, a.radius + b.radius}, OfPoint);
 }
 
 void ContactDetector::FillDiskPair(const Candidate& candidate, std::size_t i, ContactTable* contacts) const {
   const PlacedDisk &a = disks_[Index(candidate.index_a)], &b = disks_[Index(candidate.index_b)];
   const Vec2 seen_b{b.centre.x + candidate.image * period_, b.centre.y};
-  const Vec2 d = seen_b - a.centre;
+  Vec2 d = seen_b - a.centre;
+  const double moment = MeetingOf(a, b, d);
+  contacts->moment[i] = moment;
+  contacts->arm_a[i] = a.arm;
+  contacts->arm_b[i] = b.arm;
+  if (moment > 0.0) {
+    const Row &of_a = rows_[Index(a.row)], &of_b = rows_[Index(b.row)];
+    contacts->arm_a[i] = ArmAt(moment * of_a.turn, a.arm);
+    contacts->arm_b[i] = ArmAt(moment * of_b.turn, b.arm);
+    d = d + moment * (of_b.move - of_a.move) + (contacts->arm_b[i] - b.arm) - (contacts->arm_a[i] - a.arm);
+  }
   const double distance = std::sqrt(Dot(d, d));
   const double gap = distance - (a.radius + b.radius);
   contacts->gap[i] = gap;
   contacts->normal[i] = distance > 0.0 ? (1.0 / distance) * d : Vec2{0.0, 1.0};
   contacts->lever_a[i] = a.radius + 0.5 * gap;
   contacts->lever_b[i] = b.radius + 0.5 * gap;
-  contacts->arm_a[i] = a.arm;
-  contacts->arm_b[i] = b.arm;
   contacts->site[i] = 0.5 * (a.centre + seen_b);
   contacts->flat[i] = 0;
 }
@@ -74,31 +100,25 @@ void ContactDetector::FillWallPair(const Candidate& candidate, std::size_t i, Co
   const bool wall_is_a = candidate.index_a < 0;
   const PlacedWall& wall = walls_[Index(-1 - (wall_is_a ? candidate.index_a : candidate.index_b))];
   const PlacedDisk& disk = disks_[Index(wall_is_a ? candidate.index_b : candidate.index_a)];
-  const Vec2 shift{candidate.image * period_, 0.0};                              // of B
-  const Vec2 seen_disk = wall_is_a ? disk.centre + shift : disk.centre - shift;  // from the wall where it is
-  Vec2 normal = wall.normal, point;
-  double distance = 0.0;
-  std::uint8_t flat = 1;
-  if (wall.is_segment) {
-    const SegmentPoint closest = ClosestPoint(wall, seen_disk, JoinTolerance(disk));
-    normal = closest.normal;
-    distance = closest.distance;
-    point = closest.point;
-    flat = closest.is_end ? 0 : 1;
-  } else {
-    distance = Dot(normal, seen_disk - wall.centre) - wall.offset;
-    point = seen_disk - distance * normal;
-  }
-  contacts->gap[i] = distance - disk.radius;
+  const WallMeeting& meeting = meetings_[Index(candidate.meeting)];
+  const double turn = meeting.moment * rows_[Index(wall.row)].turn;  // the wall's until then
+  const WallPoint& closest = meeting.closest;
+  const Vec2 normal = ArmAt(turn, closest.normal), on_wall = ArmAt(turn, closest.point - wall.centre);
+  const Vec2 arm = ArmAt(meeting.moment * rows_[Index(disk.row)].turn, disk.arm);
+  contacts->moment[i] = meeting.moment;
+  contacts->gap[i] = closest.distance - disk.radius;
   contacts->normal[i] = wall_is_a ? normal : -1.0 * normal;
-  contacts->lever_a[i] = wall_is_a ? 0.0 : distance;
-  contacts->lever_b[i] = wall_is_a ? distance : 0.0;
-  contacts->arm_a[i] = wall_is_a ? point - wall.centre : disk.arm;
-  contacts->arm_b[i] = wall_is_a ? disk.arm : point - wall.centre;
-  const Vec2 on_wall = wall_is_a ? point : point + shift;
-  const Vec2 centre = wall_is_a ? seen_disk : disk.centre;
-  contacts->site[i] = distance < -disk.radius ? centre : on_wall;
-  contacts->flat[i] = flat;
+  contacts->lever_a[i] = wall_is_a ? 0.0 : closest.distance;
+  contacts->lever_b[i] = wall_is_a ? closest.distance : 0.0;
+  contacts->arm_a[i] = wall_is_a ? on_wall : arm;
+  contacts->arm_b[i] = wall_is_a ? arm : on_wall;
+  contacts->flat[i] = closest.is_end ? 0 : 1;
+  // The site is that of the beginning.
+  const WallPoint begin = meeting.moment == 0.0 ? closest : ClosestPoint(wall, meeting.seen, JoinTolerance(disk));
+  const Vec2 shift{candidate.image * period_, 0.0};  // of B
+  const Vec2 centre = wall_is_a ? meeting.seen : disk.centre;
+  const bool is_far = begin.distance > disk.radius + ReachOf(disk.row, wall.row);  // of what turns
+  contacts->site[i] = begin.distance < -disk.radius || is_far ? centre : wall_is_a ? begin.point : begin.point + shift;
 }
 
 }  // namespace nscdd::reference

@@ -119,6 +119,10 @@ void ReferenceAdapter::DetectContacts(const PoseView& poses, double alert, Conta
   detector_->Detect(*world_, poses, alert, contacts);
 }
 
+void ReferenceAdapter::SweepContacts(const MotionView& motion, ContactTable* contacts) {
+  detector_->Sweep(*world_, motion, contacts);
+}
+
 void ReferenceAdapter::Commit(const StepResult& result) {
   CheckResult(*world_, result);
   for (std::size_t i = 0; i < result.id.size(); ++i) {

@@ -17,17 +17,22 @@ struct PlacedWall {
   Vec2 centre;          ///< of the body
   std::int32_t row = 0;
   std::int32_t shape = 0;
+  double sweep = 0.0;  ///< [m] that turning moves it beyond its body's reach, which knows no half-planes
 };
 
-/// The point of a segment that is closest to a disk's centre.
-struct SegmentPoint {
+/// The point of a wall that is closest to a disk's centre.
+struct WallPoint {
   Vec2 point;
-  Vec2 normal;            ///< unit, from the segment to the disk's centre
-  double distance = 0.0;  ///< [m] >= 0
+  Vec2 normal;            ///< unit, from the wall to the disk's centre
+  double distance = 0.0;  ///< [m] >= 0, but behind a half-plane
   bool is_end = false;    ///< a corner
 };
 
-/// `disk` is the centre as seen by the segment (shifted by periods). Points closer than `tolerance` [m] to an end are the end.
-SegmentPoint ClosestPoint(const PlacedWall& segment, Vec2 disk, double tolerance);
+/// `disk` is the centre as seen by the wall (shifted by periods). Points closer than `tolerance` [m] to an end of a segment are
+/// the end.
+WallPoint ClosestPoint(const PlacedWall& wall, Vec2 disk, double tolerance);
+
+/// The point of the segment's whole line instead, from the side that `side` leads to.
+WallPoint PointOfLine(const PlacedWall& segment, Vec2 disk, Vec2 side);
 
 }  // namespace nscdd::reference

@@ -37,7 +37,8 @@ inline ContactStatus StatusOf(Vec2 impulse, double friction) {
   return std::abs(impulse.y) < friction * impulse.x ? ContactStatus::kSticking : ContactStatus::kSliding;
 }
 
-/// Candidate contacts at one configuration, as a structure of arrays with one entry per contact.
+/// Candidate contacts at one configuration, or on the bodies' way through a step, as a structure of arrays with one entry per
+/// contact.
 ///
 /// Conventions; this is their only statement.
 /// - Frame: `normal` n is a unit vector from body A to body B, t = (n_y, -n_x); (t, n) is direct.
@@ -64,33 +65,44 @@ struct ContactTable {
   std::vector<double> lever_b;
   std::vector<Vec2> arm_a;  ///< both arms empty when all of them are zero
   std::vector<Vec2> arm_b;
-  std::vector<Vec2> site;          ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
-                                   ///< (the disk's centre, as B is seen, where that is deeper than its radius behind the wall)
+  std::vector<Vec2>
+      site;  ///< [m] decides the subdomain: mid-point of the two disk centres, else the point on the wall
+             ///< (the disk's centre, as B is seen, where that is deeper than its radius behind the wall, or out of reach)
   std::vector<std::uint8_t> flat;  ///< 1: one side is flat here (half-plane, inside of a segment), 0: disks or a corner
-  std::vector<double> friction;    ///< Coulomb coefficient >= 0
+  std::vector<double> moment;  ///< part of the step, in [0, 1], that has gone where gap, normal, levers and arms are taken; the
+                               ///< site always is at its beginning. Empty when all are zero
+  std::vector<double> friction;     ///< Coulomb coefficient >= 0
   std::vector<double> restitution;  ///< Newton coefficient in [0, 1]
 
   std::size_t size() const { return gap.size(); }
   bool has_arms() const { return !arm_a.empty(); }
   bool has_images() const { return !image.empty(); }
+  bool has_moments() const { return !moment.empty(); }
+  double MomentOf(std::size_t contact) const { return moment.empty() ? 0.0 : moment[contact]; }
+
+  template <class Function>
+  void ForEachColumn(Function&& f) {
+    f(a);
+    f(b);
+    f(shape_a);
+    f(shape_b);
+    f(image);
+    f(gap);
+    f(normal);
+    f(lever_a);
+    f(lever_b);
+    f(arm_a);
+    f(arm_b);
+    f(site);
+    f(flat);
+    f(moment);
+    f(friction);
+    f(restitution);
+  }
 
   /// Empties the table and keeps its memory.
   void Clear() {
-    a.clear();
-    b.clear();
-    shape_a.clear();
-    shape_b.clear();
-    image.clear();
-    gap.clear();
-    normal.clear();
-    lever_a.clear();
-    lever_b.clear();
-    arm_a.clear();
-    arm_b.clear();
-    site.clear();
-    flat.clear();
-    friction.clear();
-    restitution.clear();
+    ForEachColumn([](auto& column) { column.clear(); });
   }
 };
 

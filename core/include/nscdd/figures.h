@@ -66,7 +66,7 @@ struct Figure {
   SOLVE(std::int64_t, factorisations, kResult, "-", "numeric ones") \
   STEP(double, injected_energy, kResult, "J", "work bound of gap feedback: sum of r_n max(0, -b_n)") \
   STEP(double, max_drift, kResult, "m", \
-       "largest distance that a free body moved in the step; above alert_distance contacts may be missed") \
+       "largest distance that a free body moved in the step") \
   STEP(double, alert_distance, kResult, "m", "that was used") \
   STEP(double, mean_radius, kResult, "m", "of the free bodies") \
   RESIDUAL(std::int64_t, worst_body_a, kResult, "id", "of the contact with the largest nat_max; -1: no contact") \
@@ -92,5 +92,10 @@ struct Figure {
   RESIDUAL(double, wall_error, kResult, "N s", "estimate from above of the error of the impulse on all prescribed bodies") \
   SOLVE(double, imbalance, kResult, "-", \
         "momentum that the worst body has out of nothing, over the largest of its mass times the velocity scale and its " \
-        "impulses")
+        "impulses") \
+  STEP(std::int64_t, redetections, kResult, "-", "times that contacts were looked for again, bodies having gone elsewhere") \
+  STEP(std::int64_t, second_solves, kResult, "-", "1: contacts rebounded, velocities were solved for after displacements") \
+  STEP(std::int64_t, beyond_reach, kResult, "-", "free bodies that moved further than contacts were looked for") \
+  STEP(std::int64_t, beyond_reach_body, kResult, "id", "one of them; -1: none") \
+  STEP(std::int64_t, unsettled, kResult, "-", "1: bodies went elsewhere than contacts were looked for even after the last time")
 // clang-format on

@@ -25,17 +25,19 @@ struct StoppingOptions {
   int stall_iterations = 20000;  ///< "stalled" when the residual has found no new minimum for so many iterations
 };
 
-/// The normal law is 0 <= v_n + b_n _|_ r_n >= 0; this chooses the offset b_n [m/s].
+/// The normal law is 0 <= v_n + b_n _|_ r_n >= 0; this chooses the offset b_n [m/s], and how many stages a step has.
 enum class NormalLaw {
-  kGap,       ///< b_n = max(0, gap) / dt
+  kImpact,    ///< two stages: displacements that keep the bodies apart, then velocities that rebound (core/README.md)
+  kGap,       ///< the paper's one stage, and so are the next two: b_n = max(0, gap) / dt
   kStrict,    ///< contacts with gap > 0 do not exist; b_n = 0
   kFeedback,  ///< b_n = max(0, gap) / dt - min(cap, beta max(0, -(gap + slop)) / dt): undoes interpenetration
 };
 
-/// Moreau-Jean scheme and contact law.
+/// Time stepping and contact law.
 struct SteppingOptions {
-  double theta = 0.5;            ///< [-] contacts are detected at q + (1 - theta) dt V
-  double alert_distance = -1.0;  ///< [m] pairs with a larger gap are no candidates; < 0: a tenth of the mean disk radius
+  double theta = 0.5;            ///< [-] of the laws of one stage: contacts are detected at q + (1 - theta) dt V
+  double alert_distance = -1.0;  ///< [m] pairs with a larger gap are no candidates, unless they may meet in the step (kImpact);
+                                 ///< < 0: a tenth of the mean disk radius
   NormalLaw normal_law = NormalLaw::kGap;
   double feedback_beta = 0.05;  ///< [-] part of the interpenetration that one step undoes
   double feedback_slop = 0.0;   ///< [m] interpenetration that is left alone

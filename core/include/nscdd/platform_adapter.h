@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "nscdd/body_table.h"
+#include "nscdd/contact_advance.h"
 #include "nscdd/contact_table.h"
+#include "nscdd/motion_view.h"
 
 namespace nscdd {
 
@@ -56,7 +58,8 @@ class BodyTransport {
 /// about to touch. SI units, double precision, radians, counter-clockwise positive.
 ///
 /// The host owns the bodies between steps, the core owns the double-precision state during a step; only ids and rows cross.
-/// One step calls ReadBodies, [transport()], DetectContacts and Commit once each, in this order.
+/// One step calls ReadBodies, [transport()], SweepContacts (DetectContacts under a normal law of one stage) and Commit, in this
+/// order; where bodies went elsewhere than they were expected to, transport() and SweepContacts again.
 /// Every function throws Error with a sentence when it cannot do what is asked; the host is then unchanged.
 class PlatformAdapter {
  public:
@@ -72,6 +75,19 @@ class PlatformAdapter {
   /// the host's filters let touch and of which one at least is kFree. `poses` names every body of this host. Sorted by key, no
   /// key twice, independent of history; the host is unchanged.
   virtual void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) = 0;
+
+  /// Overwrites `contacts` with every pair as above whose gap at the BEGINNING of the motion is <= the sum of both reaches,
+  /// each with the moment at which the shapes first touch on their way: 0 if the gap is closed already (nscdd/sweep.h), and
+  /// that at which they are closest if they do not touch. Gap, normal, levers and arms are those of this moment, the site is
+  /// that of the beginning; so a wall is on the side that the disk starts from. What the motion of the two cannot reach before
+  /// a neighbouring wall does (the hidden corner of two floor pieces that meet) is left out, if the neighbour is in the table.
+  ///
+  /// As it stands here, for adapters that do not know it: DetectContacts() at the beginning within the largest sum of reaches,
+  /// and the moments of disks, corners and unbounded flat sides.
+  virtual void SweepContacts(const MotionView& motion, ContactTable* contacts) {
+    DetectContacts({motion.id, motion.pose}, LargestReach(motion), contacts);
+    AdvanceToMeetings(motion, Describe().period, contacts);
+  }
 
   /// Writes the end of the step into the host. The only function here that changes poses and velocities.
   virtual void Commit(const StepResult& result) = 0;

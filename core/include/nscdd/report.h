@@ -83,8 +83,9 @@ struct SolveReport {
   std::vector<IterationRecord> history;
 };
 
-/// What a time step did: the STEP lines of figures.h, and the solve. The same on all ranks but for seconds_*, which are this
-/// rank's.
+/// What a time step did: the STEP lines of figures.h, and the solve: that of the displacements, and where contacts rebounded
+/// that of the velocities, with the counts of both and the worse status. The same on all ranks but for seconds_*, which are
+/// this rank's.
 struct StepReport {
   NSCDD_FIGURES(NSCDD_FIGURE, NSCDD_NO_FIGURE, NSCDD_NO_FIGURE)
   SolveReport solve;

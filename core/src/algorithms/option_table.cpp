@@ -143,11 +143,11 @@ std::vector<Option> StoppingTable() {
 std::vector<Option> SteppingTable() {
   return {
       Real("theta", "-", At<Stepping, &SteppingOptions::theta>, Limits{0.5, 1.0},
-           "of the Moreau-Jean scheme: contacts are detected at q + (1 - theta) dt V"),
+           "of the laws of one stage: contacts are detected at q + (1 - theta) dt V"),
       Real("alert_distance", "m", At<Stepping, &SteppingOptions::alert_distance>, Limits{},
            "pairs with a larger gap are no candidates; negative: a tenth of the mean radius"),
-      Choice("normal_law", At<Stepping, &SteppingOptions::normal_law>, {"gap", "strict", "feedback"},
-             "offset of the normal law: max(0, gap) / dt; touching contacts only; with recovery of interpenetration"),
+      Choice("normal_law", At<Stepping, &SteppingOptions::normal_law>, {"impact", "gap", "strict", "feedback"},
+             "bodies meet and rebound as told; the paper's one stage: max(0, gap) / dt; touching contacts; undoing overlap"),
       Real("feedback_beta", "-", At<Stepping, &SteppingOptions::feedback_beta>, Limits{0.0, 1.0},
            "part of the interpenetration that one step undoes, normal_law = feedback"),
       Real("feedback_slop", "m", At<Stepping, &SteppingOptions::feedback_slop>, kNotNegative,

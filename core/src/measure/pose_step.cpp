@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -11,6 +12,21 @@
 namespace nscdd {
 namespace {
 
+/// Of every body: V_f, or what moves a body that no contact hinders where displacements are solved for.
+std::vector<Twist> FreeVelocities(const BodyTable& bodies, std::span<const Twist> motion, const ContactTable& contacts,
+                                  const SteppingOptions& stepping, double dt) {
+  std::vector<std::uint8_t> is_hindered(bodies.size(), !HasTwoStages(stepping.normal_law));
+  for (std::size_t c = 0; c < contacts.size() && HasTwoStages(stepping.normal_law); ++c) {
+    if (Closes(contacts, c, motion, dt)) is_hindered[contacts.a[c]] = is_hindered[contacts.b[c]] = 1;
+  }
+  std::vector<Twist> free;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const bool is_whole = is_hindered[i] || bodies.kind[i] != BodyKind::kFree;
+    free.push_back(is_whole ? FreeVelocity(bodies, i, InverseMassOf(bodies, i), dt) : FreeMotion(bodies, i, dt));
+  }
+  return free;
+}
+
 void AddBodies(const BodyTable& bodies, double dt, ContactProblem* problem) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -18,7 +34,6 @@ void AddBodies(const BodyTable& bodies, double dt, ContactProblem* problem) {
     const Wrench f = free ? bodies.force[i] : Wrench{};
     problem->mass.push_back(free ? bodies.mass[i] : kInfinity);
     problem->inertia.push_back(free ? bodies.inertia[i] : kInfinity);
-    problem->free_velocity.push_back(FreeVelocity(bodies, i, InverseMassOf(bodies, i), dt));
     problem->impulse.push_back({dt * f.fx, dt * f.fy, dt * f.torque});
   }
 }
@@ -30,8 +45,8 @@ void AppendRow(const ContactTable& from, std::size_t c, ContactTable* to) {
   for (const auto column :
        {&ContactTable::a, &ContactTable::b, &ContactTable::shape_a, &ContactTable::shape_b, &ContactTable::image})
     append(column);
-  for (const auto column : {&ContactTable::gap, &ContactTable::lever_a, &ContactTable::lever_b, &ContactTable::friction,
-                            &ContactTable::restitution})
+  for (const auto column : {&ContactTable::gap, &ContactTable::lever_a, &ContactTable::lever_b, &ContactTable::moment,
+                            &ContactTable::friction, &ContactTable::restitution})
     append(column);
   for (const auto column : {&ContactTable::normal, &ContactTable::arm_a, &ContactTable::arm_b, &ContactTable::site})
     append(column);
@@ -70,12 +85,14 @@ BodyTable SortedById(const BodyTable& bodies) {
   return sorted;
 }
 
-ContactProblem PoseStep(const BodyTable& bodies, const ContactTable& contacts, const SteppingOptions& stepping, double dt) {
+ContactProblem PoseStep(const BodyTable& bodies, std::span<const Twist> motion, const ContactTable& contacts,
+                        const SteppingOptions& stepping, double dt) {
   ContactProblem problem;
   AddBodies(bodies, dt, &problem);
+  problem.free_velocity = FreeVelocities(bodies, motion, contacts, stepping, dt);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!Sees(stepping.normal_law, contacts.gap[c])) continue;
-    const NormalCondition normal = NormalConditionOf(stepping, bodies, contacts, c, dt);
+    const NormalCondition normal = NormalConditionOf(stepping, bodies, motion, contacts, c, dt);
     AppendRow(contacts, c, &problem.contacts);
     problem.offset.push_back(normal.offset);
     problem.approach_speed = std::max(problem.approach_speed, -normal.approach);
@@ -91,6 +108,9 @@ BodyTable ReadSortedBodies(PlatformAdapter* adapter) {
 
 StepProblem ReadStepProblem(PlatformAdapter* adapter, const SteppingOptions& stepping, double dt) {
   if (!(stepping.alert_distance >= 0.0)) throw Error("a step's problem needs an alert distance that is not negative [m]");
+  if (HasTwoStages(stepping.normal_law)) {
+    throw Error("a step's problem cannot be read with a normal law of two stages; take \"gap\"");
+  }
   if (stepping.normal_law == NormalLaw::kStrict) {
     throw Error("a step's problem cannot be read with normal_law = \"strict\"; take \"gap\", which keeps the open contacts");
   }
@@ -101,7 +121,7 @@ StepProblem ReadStepProblem(PlatformAdapter* adapter, const SteppingOptions& ste
   p.detection = Drifted(p.bodies.pose, p.bodies.velocity, (1.0 - stepping.theta) * dt, adapter->Describe());
   ContactTable contacts;
   adapter->DetectContacts({p.bodies.id, p.detection}, stepping.alert_distance, &contacts);
-  p.problem = PoseStep(p.bodies, contacts, stepping, dt);
+  p.problem = PoseStep(p.bodies, {}, contacts, stepping, dt);
   const ContactTable& t = p.problem.contacts;
   for (std::size_t c = 0; c < t.size(); ++c) p.keys.push_back(KeyOf(t, c, p.bodies.id));
   return p;

@@ -11,17 +11,18 @@
 
 namespace nscdd {
 
-DomainExtent ReduceExtent(const BodyTable& bodies, const std::vector<Pose>& centre, std::size_t newcomers, double dt,
-                          Communicator* communicator) {
+DomainExtent ReduceExtent(const BodyTable& bodies, const std::vector<Pose>& centre, const std::vector<double>& reach,
+                          std::size_t newcomers, double dt, Communicator* communicator) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   struct Minima {
     double x, y, dt;
   } min{kInfinity, kInfinity, dt};
   struct Maxima {
-    double x, y, dt, radius, newcomers;
-  } max{-kInfinity, -kInfinity, dt, 0.0, static_cast<double>(newcomers)};
+    double x, y, dt, radius, reach, newcomers;
+  } max{-kInfinity, -kInfinity, dt, 0.0, 0.0, static_cast<double>(newcomers)};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     max.radius = std::max(max.radius, bodies.radius[i]);
+    max.reach = std::max(max.reach, reach[i]);
     if (bodies.kind[i] != BodyKind::kFree) continue;
     min.x = std::min(min.x, centre[i].x);
     min.y = std::min(min.y, centre[i].y);
@@ -38,6 +39,7 @@ DomainExtent ReduceExtent(const BodyTable& bodies, const std::vector<Pose>& cent
     extent.high = {max.x, max.y};
   }
   extent.largest_radius = max.radius;
+  extent.largest_reach = max.reach;
   extent.newcomers = max.newcomers > 0.0;
   return extent;
 }

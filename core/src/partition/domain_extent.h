@@ -17,13 +17,14 @@ namespace nscdd {
 struct DomainExtent {
   Vec2 low, high;               ///< box of the free bodies' centres [m]; both zero when there are none
   double largest_radius = 0.0;  ///< [m] of any disk
+  double largest_reach = 0.0;   ///< [m] of any body
   bool newcomers = false;       ///< some rank has bodies that were not here before
 };
 
-/// `centre`: q_m of every row of `bodies`. Minima and maxima are exact, so the same on any number of ranks. Throws Error on all
-/// ranks when their time steps `dt` [s] differ. Collective.
-DomainExtent ReduceExtent(const BodyTable& bodies, const std::vector<Pose>& centre, std::size_t newcomers, double dt,
-                          Communicator* communicator);
+/// `centre`, `reach`: of every row of `bodies`. Minima and maxima are exact, so the same on any number of ranks. Throws Error
+/// on all ranks when their time steps `dt` [s] differ. Collective.
+DomainExtent ReduceExtent(const BodyTable& bodies, const std::vector<Pose>& centre, const std::vector<double>& reach,
+                          std::size_t newcomers, double dt, Communicator* communicator);
 
 /// The cuts: nx x ny equal cells over the extent, or over the period.
 Grid GridOver(const DomainExtent& extent, const PartitionOptions& partition, const AdapterDescription& platform);

@@ -23,9 +23,11 @@ std::vector<int> RanksNear(Vec2 centre, double reach, int owner, const Grid& gri
 
 }  // namespace
 
-// The site of two disks is the mid-point of their centres: (rho_i + rho_j + alert) / 2 from a disk's centre at most; that of a
-// disk and another wall is on the wall, rho_i + alert from it. A disk's centre is within bounding_radius of the centre of mass.
-double Reach::Of(double radius, double bounding_radius) const {
+// The site of two disks is the mid-point of their centres: (rho_i + rho_j + reach_i + reach_j) / 2 from a disk's centre at
+// most; that of a disk and another wall is on the wall, rho_i + both reaches from it. A disk's centre is within bounding_radius
+// of the centre of mass.
+double Reach::Of(double radius, double bounding_radius, double reach) const {
+  const double alert = reach + largest;
   const double half = 0.5 * (largest_radius + alert);
   const double exact =
       bounding_radius == radius ? std::max(radius + alert, 0.5 * radius + half) : bounding_radius + std::max(alert, half);
@@ -41,7 +43,8 @@ HaloPlan MakeHaloPlan(const Population& population, const std::vector<Pose>& det
   for (std::size_t row = 0; row < t.size(); ++row) {
     const Vec2 centre = Centre(detection[row]);
     const int home = blocks.RankOf(grid.CellOf(centre));
-    std::vector<int> needed = RanksNear(centre, reach.Of(t.radius[row], t.bounding_radius[row]), home, grid, blocks);
+    std::vector<int> needed =
+        RanksNear(centre, reach.Of(t.radius[row], t.bounding_radius[row], reach.own[row]), home, grid, blocks);
     const std::vector<int>& before = population.holders[row];
     for (const int other : needed) {
       if (other == rank) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nscdd/vector.h"
@@ -13,9 +14,10 @@ namespace nscdd {
 /// How far from its centre a body may have contact sites at a detection.
 struct Reach {
   double largest_radius = 0.0;  ///< [m] of any disk, on any rank
-  double alert = 0.0;           ///< [m]
+  double largest = 0.0;         ///< [m] reach of any body, on any rank: half the alert distance, or its motion in the step
+  std::span<const double> own;  ///< [m] of each row
 
-  double Of(double radius, double bounding_radius) const;
+  double Of(double radius, double bounding_radius, double reach) const;
 };
 
 /// Where the bodies that a rank owns have to be in one step: each on the rank of its home cell, which then owns it, and as a

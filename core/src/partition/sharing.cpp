@@ -32,7 +32,8 @@ Sharing MakeSharing(std::size_t rows, const SubdomainPairs& pairs) {
   return sharing;
 }
 
-Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Communicator* communicator) {
+Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, std::vector<std::uint8_t>* marks,
+                        Communicator* communicator) {
   Sharing mine = MakeSharing(population.size(), pairs);
   if (communicator->size() == 1) return mine;
   // What our subdomains touch is told to every rank that holds the body.
@@ -44,6 +45,7 @@ Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Comm
         ByteWriter out(&parcels[rank]);
         out.Put(population.bodies.id[row]);
         out.Put(subdomain);
+        out.Put((*marks)[row]);
       }
     }
   }
@@ -53,7 +55,9 @@ Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Comm
     for (ByteReader in(message.bytes); !in.empty();) {
       const auto id = in.Get<std::int64_t>();
       const auto subdomain = in.Get<std::int32_t>();
-      pairs.emplace_back(static_cast<std::int32_t>(population.RowOf(id)), subdomain);
+      const auto row = static_cast<std::int32_t>(population.RowOf(id));
+      (*marks)[row] |= in.Get<std::uint8_t>();
+      pairs.emplace_back(row, subdomain);
     }
   }
   return MakeSharing(population.size(), pairs);

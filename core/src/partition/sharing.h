@@ -29,7 +29,9 @@ using SubdomainPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 /// From pairs in any order, repeated or not.
 Sharing MakeSharing(std::size_t rows, const SubdomainPairs& pairs);
 
-/// Completes the pairs of this rank's contacts to the sharing of all bodies that it holds. Collective.
-Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, Communicator* communicator);
+/// Completes the pairs of this rank's contacts to the sharing of all bodies that it holds, and `marks`, by row, to those that
+/// some rank has set. Collective.
+Sharing CompleteSharing(const Population& population, SubdomainPairs pairs, std::vector<std::uint8_t>* marks,
+                        Communicator* communicator);
 
 }  // namespace nscdd

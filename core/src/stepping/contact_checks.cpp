@@ -69,34 +69,43 @@ void CheckDrift(const BodyTable& t, double half, const AdapterDescription& adapt
   }
 }
 
-void CheckContacts(const ContactTable& t, const BodyTable& bodies, double alert, const AdapterDescription& adapter) {
+void CheckMotion(const BodyTable& bodies, std::span<const Twist> motion) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (IsFinite(motion[i])) continue;
+    throw Error(fmt::format("the loads make a velocity of body {} that is not finite; nothing was written back", bodies.id[i]));
+  }
+}
+
+void CheckContacts(const ContactTable& t, const BodyTable& bodies, std::span<const double> reach, const char* function,
+                   const AdapterDescription& adapter) {
   const std::size_t n = t.size();
   if (t.a.size() != n || t.b.size() != n || t.shape_a.size() != n || t.shape_b.size() != n || t.normal.size() != n ||
       t.lever_a.size() != n || t.lever_b.size() != n || t.site.size() != n || t.flat.size() != n || t.friction.size() != n ||
       t.restitution.size() != n || t.arm_a.size() != t.arm_b.size() || (t.has_arms() && t.arm_a.size() != n) ||
-      (t.has_images() && t.image.size() != n)) {
-    Refuse(adapter, "DetectContacts", "the columns of the contact table differ in length ({} gaps)", n);
+      (t.has_images() && t.image.size() != n) || (t.has_moments() && t.moment.size() != n)) {
+    Refuse(adapter, function, "the columns of the contact table differ in length ({} gaps)", n);
   }
   const auto rows = static_cast<std::int32_t>(bodies.size());
-  const double slack = 1e-9 * std::max(1.0, alert);
   ContactKey previous;
   for (std::size_t c = 0; c < n; ++c) {
     const std::int32_t a = t.a[c], b = t.b[c];
     if (a < 0 || a >= rows || b < 0 || b >= rows) {
-      Refuse(adapter, "DetectContacts", "contact {} refers to rows {} and {} of {} poses", c, a, b, rows);
+      Refuse(adapter, function, "contact {} refers to rows {} and {} of {} poses", c, a, b, rows);
     }
     const ContactKey key = KeyOf(t, c, bodies.id);
     // From here on bodies have names.
     const auto refuse = [&](const char* what) {
-      Refuse(adapter, "DetectContacts", "the contact of bodies {} and {} {}", key.body_a, key.body_b, what);
+      Refuse(adapter, function, "the contact of bodies {} and {} {}", key.body_a, key.body_b, what);
     };
     if (key.body_a >= key.body_b) refuse("has A and B the wrong way round; the id of A must be the smaller one");
     if (c > 0 && key == previous) refuse("is there twice with the same shapes and image");
     if (c > 0 && key < previous) refuse("is out of order; contacts must be sorted by key");
     if (bodies.kind[a] != BodyKind::kFree && bodies.kind[b] != BodyKind::kFree) refuse("joins two prescribed bodies");
     if (!(std::abs(Dot(t.normal[c], t.normal[c]) - 1.0) < 2e-9)) refuse("has a normal that is not a unit vector");
-    if (!std::isfinite(t.gap[c]) || t.gap[c] > alert + slack)
+    const double alert = reach[a] + reach[b];
+    if (!std::isfinite(t.gap[c]) || t.gap[c] > alert + 1e-9 * std::max(1.0, alert))
       refuse("has a gap that is not finite or above the alert distance");
+    if (!(t.MomentOf(c) >= 0.0 && t.MomentOf(c) <= 1.0)) refuse("has a moment outside [0, 1]");
     if (!std::isfinite(t.lever_a[c]) || !std::isfinite(t.lever_b[c])) refuse("has a lever that is not finite");
     if (!std::isfinite(t.site[c].x) || !std::isfinite(t.site[c].y)) refuse("has a site that is not finite");
     if (!std::isfinite(t.friction[c]) || t.friction[c] < 0.0) refuse("has a friction that is negative or not finite");

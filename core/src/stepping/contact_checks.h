@@ -20,8 +20,12 @@ void CheckBodies(const BodyTable& bodies, const AdapterDescription& adapter);
 /// Throws Error, naming the body, when its position after `half` [s] at its velocity is not finite.
 void CheckDrift(const BodyTable& bodies, double half, const AdapterDescription& adapter);
 
-/// As CheckBodies, for contacts: rows, order of keys, none twice, unit normals, gaps up to `alert`, friction, restitution, a
-/// free body. Arms on free bodies need the capability `clusters`.
-void CheckContacts(const ContactTable& contacts, const BodyTable& bodies, double alert, const AdapterDescription& adapter);
+/// Throws Error, naming the body, when its loads make a velocity that is not finite.
+void CheckMotion(const BodyTable& bodies, std::span<const Twist> motion);
+
+/// As CheckBodies, for contacts: rows, order of keys, none twice, unit normals, gaps up to the sum of both `reach`, moments,
+/// friction, restitution, a free body. Arms on free bodies need the capability `clusters`. `function` found them.
+void CheckContacts(const ContactTable& contacts, const BodyTable& bodies, std::span<const double> reach, const char* function,
+                   const AdapterDescription& adapter);
 
 }  // namespace nscdd

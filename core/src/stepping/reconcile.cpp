@@ -131,7 +131,7 @@ void AverageCopies(std::vector<CopyRecord>* copies, const Population& population
 void StoreSolution(const PartitionedProblem& problem, const PartitionedState& state, StepTables* tables) {
   tables->impulse.assign(tables->contacts.size(), {});
   tables->relative_velocity.assign(tables->contacts.size(), {});
-  tables->velocity = std::move(tables->columns.free_velocity);
+  tables->velocity = tables->columns.free_velocity;
   for (std::size_t e = 0; e < problem.subdomains.size(); ++e) {
     StoreImpulses(problem.subdomains[e], state.subdomains[e], &tables->impulse, &tables->relative_velocity);
     StoreVelocities(problem.subdomains[e], state.subdomains[e], tables->columns.inverse_mass, &tables->velocity);

@@ -19,7 +19,8 @@ struct StepOutcome {
   std::size_t FirstNotFinite() const;
 };
 
-/// The end of the step, q_f = q_m + `half` V with half = theta dt [s], of the bodies of `rank` and of its contacts.
-StepOutcome MoveBodies(const Population& population, const StepTables& tables, const Grid& grid, double half, int rank);
+/// The end of the step of the bodies of `rank` and of its contacts: they move by `rest` [s] from where they were detected, at W
+/// in two stages (rest = dt), at V in one (theta dt).
+StepOutcome MoveBodies(const Population& population, const StepTables& tables, const Grid& grid, double rest, int rank);
 
 }  // namespace nscdd

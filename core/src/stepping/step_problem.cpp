@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "nscdd/step_problem.h"
+#include "stepping/motion.h"
 
 namespace nscdd {
 
-StepColumns MakeColumns(const BodyTable& bodies, const ContactTable& contacts, const SubdomainContacts& chosen,
-                        const SteppingOptions& stepping, double dt) {
+StepColumns MakeColumns(const BodyTable& bodies, std::span<const Twist> motion, const ContactTable& contacts,
+                        const SubdomainContacts& chosen, const SteppingOptions& stepping, double dt) {
   StepColumns columns;
   columns.inverse_mass.reserve(bodies.size());
   columns.inverse_inertia.reserve(bodies.size());
@@ -25,12 +26,18 @@ StepColumns MakeColumns(const BodyTable& bodies, const ContactTable& contacts, c
   columns.offset.assign(contacts.size(), 0.0);
   for (const auto& rows : chosen.rows) {
     for (const std::int32_t c : rows) {
-      const NormalCondition normal = NormalConditionOf(stepping, bodies, contacts, c, dt);
+      const NormalCondition normal = NormalConditionOf(stepping, bodies, motion, contacts, c, dt);
       columns.approach[c] = normal.approach;
       columns.offset[c] = normal.offset;
     }
   }
   return columns;
+}
+
+void FreeDisplacements(const BodyTable& bodies, std::span<const std::uint8_t> is_hindered, double dt, StepColumns* columns) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!is_hindered[i] && bodies.kind[i] == BodyKind::kFree) columns->free_velocity[i] = FreeMotion(bodies, i, dt);
+  }
 }
 
 void AddBody(double mass, double inertia, double radius, const Wrench& force, double dt, ProblemPart* part) {

@@ -29,9 +29,13 @@ struct StepColumns {
   std::vector<double> offset;           ///< b_n [m/s]
 };
 
-/// nscdd/step_problem.h applied to every body and to the chosen contacts.
-StepColumns MakeColumns(const BodyTable& bodies, const ContactTable& contacts, const SubdomainContacts& chosen,
-                        const SteppingOptions& stepping, double dt);
+/// nscdd/step_problem.h applied to every body and to the chosen contacts; `motion` of the sweep.
+StepColumns MakeColumns(const BodyTable& bodies, std::span<const Twist> motion, const ContactTable& contacts,
+                        const SubdomainContacts& chosen, const SteppingOptions& stepping, double dt);
+
+/// Of the displacements W in two stages: V_f where a body is hindered, so that W is its velocity at the end as well, and what
+/// moves it exactly where nothing does.
+void FreeDisplacements(const BodyTable& bodies, std::span<const std::uint8_t> is_hindered, double dt, StepColumns* columns);
 
 /// One subdomain's part of what all ranks must know before they build.
 struct ProblemSums {

@@ -15,6 +15,9 @@ namespace nscdd {
 void Summarise(const Population& population, const StepTables& tables, const StepOutcome& outcome,
                const SteppingOptions& stepping, double dt, Communicator* communicator, StepReport* report);
 
+/// Adds the counts of an earlier solve of the step; its status and residuals stand where it ended worse.
+void AddSolve(const SolveReport& earlier, SolveReport* last);
+
 /// Sums of what all ranks sent in the step, `mine` on this one, and of the bodies that changed rank. Collective.
 void SummariseCommunication(const CommunicationCounters& mine, std::int64_t migrated, Communicator* communicator,
                             StepReport* report);

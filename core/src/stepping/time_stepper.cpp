@@ -7,12 +7,11 @@
 #include "algorithms/algorithms.h"
 #include "nscdd/agreement.h"
 #include "nscdd/step_problem.h"
-#include "partition/body_migration.h"
-#include "partition/domain_extent.h"
-#include "partition/impulse_directory.h"
-#include "partition/unique_ids.h"
 #include "problem/state.h"
+#include "stepping/body_placement.h"
 #include "stepping/contact_checks.h"
+#include "stepping/meetings.h"
+#include "stepping/midway.h"
 #include "stepping/reconcile.h"
 #include "stepping/saved_state.h"
 #include "stepping/setup_checks.h"
@@ -25,6 +24,16 @@
 
 namespace nscdd {
 
+namespace {
+
+/// A step that is not settled by then says so (beyond_reach, unsettled): blows pass on in one or two, walls that turn take a
+/// few.
+constexpr int kMostRedetections = 6;
+
+constexpr int kMostRefinements = 2;
+
+}  // namespace
+
 class TimeStepper::Impl {
  public:
   Impl(const SteppingOptions& stepping, const AlgorithmOptions& algorithm, PlatformAdapter* adapter, Communicator* communicator)
@@ -33,25 +42,27 @@ class TimeStepper::Impl {
         partition_(PartitionOf(algorithm)),
         adapter_(adapter),
         communicator_(communicator),
-        migration_(adapter, communicator) {
-    RunTogether(communicator, [&] { description_ = CheckSetup(stepping, algorithm, adapter, communicator->size()); });
-    blocks_ = Blocks(partition_.nx * partition_.ny, communicator->size());
-  }
+        description_(Describe(stepping, algorithm, adapter, communicator)),
+        placement_(stepping, partition_, adapter, description_, communicator) {}
 
   /// The scheme. Until Commit() nothing is told to the hosts but which bodies they hold, so a failed step may be tried again.
   const StepReport& Step(double dt) {
     StepClock clock(*communicator_);
     report_ = {};
-    ReadBodies(dt);
-    Migrate(dt);
-    DetectContacts();
-    report_.seconds_detect = clock.Lap();
-    Assemble(dt);
-    PartitionedState state = FirstIterate(dt);
-    report_.solve = SolveAny(problem_, algorithm_, communicator_, &workspace_, &state);
-    Reconcile(problem_, state, population(), communicator_, &now_, &next_cache_);
-    report_.seconds_solve = clock.Lap();
-    outcome_ = MoveBodies(population(), now_, kept_.grid, stepping_.theta * dt, communicator_->rank());
+    solves_ = 0;
+    placement_.Begin(dt, &kept_, &cache_, &now_);
+    PartitionedState state = SolveContacts(dt, &clock);
+    if (has_two_stages()) {
+      NextStage next = Refine(&state, dt);
+      for (; next.detection && report_.redetections < kMostRedetections; next = Refine(&state, dt)) {
+        ReturnToStart(dt);
+        state = SolveContacts(dt, &clock);
+      }
+      report_.unsettled = next.detection;
+      if (next.rebound) SolveVelocities(dt, &state);
+      report_.seconds_solve += clock.Lap();
+    }
+    outcome_ = MoveBodies(population(), now_, kept_.grid, has_two_stages() ? dt : stepping_.theta * dt, communicator_->rank());
     Summarise(population(), now_, outcome_, stepping_, dt, communicator_, &report_);
     Commit();
     Conclude(dt, clock);
@@ -64,73 +75,110 @@ class TimeStepper::Impl {
     ImpulseCache cache;
     kept_ = ReadStates(parts, partition_, description_, communicator_, &cache);
     if (stepping_.alert_distance >= 0.0) kept_.alert = stepping_.alert_distance;
-    migration_.Forget();
+    placement_.Forget();
     cache_ = std::move(cache);
-    is_cache_scattered_ = true;
   }
 
   const StepOutcome& outcome() const { return outcome_; }
 
  private:
-  const Population& population() const { return migration_.population(); }
+  const Population& population() const { return placement_.population(); }
   const BodyTable& bodies() const { return population().bodies; }
   double alert() const { return std::max(0.0, kept_.alert); }
-
-  /// Masses, poses, velocities and loads, host -> core.
-  void ReadBodies(double dt) {
-    RunTogether(communicator_, [&] {
-      CheckTimeStep(dt);
-      BodyTable read;
-      adapter_->ReadBodies(&read);
-      CheckBodies(read, description_);
-      CheckDrift(read, (1.0 - stepping_.theta) * dt, description_);
-      migration_.TakeOver(std::move(read));
-    });
-    if (is_cache_scattered_) DeliverToOwners(bodies().id, communicator_, &cache_);
-    if (kept_.alert < 0.0) kept_.alert = stepping_.alert_distance;
-    if (kept_.alert < 0.0) kept_.alert = DefaultAlertDistance(bodies(), communicator_);
+  bool has_two_stages() const { return HasTwoStages(stepping_.normal_law); }
+  static AdapterDescription Describe(const SteppingOptions& stepping, const AlgorithmOptions& algorithm,
+                                     PlatformAdapter* adapter, Communicator* communicator) {
+    AdapterDescription description;
+    RunTogether(communicator, [&] { description = CheckSetup(stepping, algorithm, adapter, communicator->size()); });
+    return description;
   }
 
-  /// q_m = q_i + (1 - theta) dt V_i; the cuts, over the free bodies at q_m; each body to the rank of its home cell, and ghosts
-  /// to where contacts may need them.
-  void Migrate(double dt) {
-    const double half = (1.0 - stepping_.theta) * dt;
-    Grid& grid = kept_.grid;
-    if (kept_.step == 0) grid = GridOver({}, partition_, description_);  // its period
-    now_.detection = Drifted(bodies(), grid, half);
-    const DomainExtent extent = ReduceExtent(bodies(), now_.detection, migration_.newcomers(), dt, communicator_);
-    const bool is_of_others = grid.nx() != partition_.nx || grid.ny() != partition_.ny;  // of a state that was loaded
-    if (is_of_others || kept_.step % partition_.repartition_every == 0) grid = GridOver(extent, partition_, description_);
-    if (extent.newcomers) CheckIdsAreUnique(bodies().id, communicator_);
-    migration_.Move(now_.detection, grid, blocks_, {extent.largest_radius, alert()}, &cache_);
-    is_cache_scattered_ = false;
-    if (communicator_->size() > 1) now_.detection = Drifted(bodies(), grid, half);  // rows have come and gone
-    now_.home = CellsOf(now_.detection, grid);
+  /// Once more from q_i, on the way that the bodies have taken and from the impulses that they got.
+  void ReturnToStart(double dt) {
+    ++report_.redetections;
+    std::swap(cache_, next_cache_);
+    kept_.cached_dt = dt;
+    placement_.Return(dt, &kept_, &cache_, &now_);
   }
 
-  /// Contacts at q_m, each to the subdomain of its site; which bodies several subdomains share.
-  void DetectContacts() {
+  PartitionedState SolveContacts(double dt, StepClock* clock) {
+    DetectContacts(dt);
+    report_.seconds_detect += clock->Lap();
+    Assemble(dt);
+    PartitionedState state = FirstIterate(dt);
+    Solve(algorithm_, &state);
+    Displace(state, dt);
+    report_.seconds_solve += clock->Lap();
+    return state;
+  }
+
+  void Solve(const AlgorithmOptions& algorithm, PartitionedState* state) {
+    const SolveReport earlier = std::exchange(report_.solve, {});
+    report_.solve = SolveAny(problem_, algorithm, communicator_, &workspace_, state);
+    if (solves_++ > 0) AddSolve(earlier, &report_.solve);
+  }
+
+  /// V; in two stages W, and V as it is if nothing rebounds.
+  void Displace(const PartitionedState& state, double dt) {
+    Reconcile(problem_, state, population(), communicator_, &now_, &next_cache_);
+    if (!has_two_stages()) return;
+    now_.displacement = std::exchange(now_.velocity, {});
+    now_.velocity = VelocitiesOf(bodies(), now_, dt);
+    MoveMidway(population(), dt, communicator_->rank(), &now_);
+  }
+
+  /// Judges W; solves to a closer tolerance where bodies would stand deep in each other.
+  NextStage Refine(PartitionedState* state, double dt) {
+    AlgorithmOptions closer = algorithm_;
+    for (int i = 0;; ++i) {
+      const NextStage next = JudgeDisplacements(problem_, *state, population(), now_, kept_.grid, dt, communicator_);
+      if (!next.precision || i == kMostRefinements) return next;
+      std::visit([](auto& options) { options.stopping.tolerance *= 1e-2; }, closer);
+      Solve(closer, state);
+      Displace(*state, dt);
+    }
+  }
+
+  /// From the impulses of the displacements; these, not its own, are what the next step starts from.
+  void SolveVelocities(double dt, PartitionedState* state) {
+    ++report_.second_solves;
+    AskForRebounds(bodies(), dt, &now_, &problem_, state);
+    Solve(algorithm_, state);
+    ImpulseCache unused;
+    Reconcile(problem_, *state, population(), communicator_, &now_, &unused);
+  }
+
+  /// Contacts there, or at the moments of the sweep, each to the subdomain of its site; which bodies several subdomains share.
+  void DetectContacts(double dt) {
     SubdomainPairs touched;
     RunTogether(communicator_, [&] {
       now_.contacts.Clear();
-      adapter_->DetectContacts({bodies().id, now_.detection}, alert(), &now_.contacts);
-      CheckContacts(now_.contacts, bodies(), alert(), description_);
+      if (has_two_stages()) {
+        CheckMotion(bodies(), now_.motion);
+        adapter_->SweepContacts({bodies().id, now_.detection, now_.motion, now_.reach, dt}, &now_.contacts);
+      } else {
+        adapter_->DetectContacts({bodies().id, now_.detection}, alert(), &now_.contacts);
+      }
+      CheckContacts(now_.contacts, bodies(), now_.reach, has_two_stages() ? "SweepContacts" : "DetectContacts", description_);
       const int rank = communicator_->rank();
-      now_.chosen = ChooseContacts(now_.contacts, stepping_.normal_law, kept_.grid, blocks_.First(rank), blocks_.Count(rank));
+      const Blocks& blocks = placement_.blocks();
+      now_.chosen = ChooseContacts(now_.contacts, stepping_.normal_law, kept_.grid, blocks.First(rank), blocks.Count(rank));
       touched = TouchedBodies(now_.contacts, now_.chosen, bodies().size(),
                               [&](std::int32_t row) { return bodies().kind[row] == BodyKind::kFree; });
     });
-    now_.sharing = CompleteSharing(population(), std::move(touched), communicator_);
+    now_.is_hindered = has_two_stages() ? HinderedBodies(now_, dt) : std::vector<std::uint8_t>(bodies().size(), 0);
+    now_.sharing = CompleteSharing(population(), std::move(touched), &now_.is_hindered, communicator_);
   }
 
   /// The step's problem: V_f, b_n, what all ranks must know, then H and W of every subdomain and the interface.
   void Assemble(double dt) {
-    now_.columns = MakeColumns(bodies(), now_.contacts, now_.chosen, stepping_, dt);
+    now_.columns = MakeColumns(bodies(), now_.motion, now_.contacts, now_.chosen, stepping_, dt);
+    if (has_two_stages()) FreeDisplacements(bodies(), now_.is_hindered, dt, &now_.columns);
     const ProblemTables tables = TablesOf(now_.columns, now_.contacts, now_.sharing);
     std::vector<ProblemPart> parts = PartsOfBodies(population(), now_.home, now_.chosen, dt, communicator_->rank());
     AddContacts(now_.chosen, now_.contacts, now_.columns, &parts);
     const ProblemTotals totals = ReduceTotals(std::move(parts), RequiredModel(tables), communicator_);
-    problem_ = AssembleProblem(tables, bodies().id, now_.chosen, totals, blocks_, communicator_->rank());
+    problem_ = AssembleProblem(tables, bodies().id, now_.chosen, totals, placement_.blocks(), communicator_->rank());
     problem_.dt = dt;
     report_.bodies = totals.bodies;
     report_.mean_radius = totals.mean_radius;
@@ -155,7 +203,7 @@ class TimeStepper::Impl {
     kept_.cached_dt = dt;
     report_.step = ++kept_.step;
     report_.time = kept_.time += dt;
-    SummariseCommunication(clock.Communication(), migration_.migrated(), communicator_, &report_);
+    SummariseCommunication(clock.Communication(), placement_.migrated(), communicator_, &report_);
     report_.seconds_communicate = clock.Communication().seconds;
     report_.seconds_total = clock.Total();
   }
@@ -167,16 +215,15 @@ class TimeStepper::Impl {
   PlatformAdapter* adapter_;
   Communicator* communicator_;
   AdapterDescription description_;
-  Blocks blocks_;
 
   // Kept between steps.
   StepperState kept_;
-  BodyMigration migration_;
+  BodyPlacement placement_;
   ImpulseCache cache_, next_cache_;  // the next one takes its place once the step has succeeded
-  bool is_cache_scattered_ = false;  // loaded: its entries may be on other ranks than their bodies
   InterfaceWorkspace workspace_;
 
   // Of the present step.
+  int solves_ = 0;
   StepTables now_;
   PartitionedProblem problem_;
   StepOutcome outcome_;

@@ -8,6 +8,7 @@
 
 #include "checkpoint/stop_signal.h"
 #include "nscdd/error.h"
+#include "nscdd/normal_law.h"
 #include "results/progress_bar.h"
 #include "results/written_file.h"
 #include "scene/platform.h"
@@ -111,10 +112,15 @@ void TradeoffCommand::ReadStepping() {
   SerialCommunicator serial;
   plan_.mean_radius = 10.0 * std::max(0.0, DefaultAlertDistance(ReadSortedBodies(&platform->adapter()), &serial));
   SteppingOptions& s = plan_.stepping = SteppingOf(choice_, registry_);
+  // Settings are compared on the problems of one stage, of which a step has one.
+  const bool has_two = HasTwoStages(s.normal_law);
+  if (has_two) s.normal_law = NormalLaw::kGap;
   if (s.alert_distance < 0.0) s.alert_distance = 0.1 * plan_.mean_radius;
   for (const auto& option : choice_.options) {
-    if (IsStepping(option.first) && option.first != "alert_distance") plan_.stepping_texts.push_back(option);
+    const bool is_replaced = option.first == "alert_distance" || (has_two && option.first == "normal_law");
+    if (IsStepping(option.first) && !is_replaced) plan_.stepping_texts.push_back(option);
   }
+  if (has_two) plan_.stepping_texts.emplace_back("normal_law", "gap");
   plan_.stepping_texts.emplace_back("alert_distance", fmt::format("{}", s.alert_distance));
   contacts_ = static_cast<std::int64_t>(ReadStepProblem(&platform->adapter(), s, scene_.time.dt).keys.size());
 }

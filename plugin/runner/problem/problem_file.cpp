@@ -141,7 +141,9 @@ BodyTable AddBodies(const Reader& file, double dt, ContactProblem* problem) {
     Wrench& f = table.force[i] = {b[7] * gravity[0], b[7] * gravity[1], 0.0};
     if (!forces.empty()) f = {f.fx + forces[i][0], f.fy + forces[i][1], f.torque + forces[i][2]};
   }
-  *problem = PoseStep(table, {}, {}, dt);
+  SteppingOptions one_stage;  // b_n stands in the file; V_f is that of every body
+  one_stage.normal_law = NormalLaw::kGap;
+  *problem = PoseStep(table, {}, {}, one_stage, dt);
   return table;
 }
 

@@ -32,6 +32,7 @@ class StepRecorder final : public PlatformAdapter {
   AdapterDescription Describe() const override;
   void ReadBodies(BodyTable* bodies) override;
   void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) override;
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override;
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override { return nullptr; }
 
@@ -43,6 +44,7 @@ class StepRecorder final : public PlatformAdapter {
   PlatformAdapter* adapter_;
   BodyTable bodies_;  // in ascending order of id
   ContactTable contacts_;
+  std::vector<Twist> motion_;  // of the last sweep
   std::vector<Twist> velocity_;
   std::vector<ContactKey> key_;
   std::vector<Vec2> impulse_;

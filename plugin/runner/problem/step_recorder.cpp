@@ -23,6 +23,12 @@ void StepRecorder::DetectContacts(const PoseView& poses, double alert, ContactTa
   contacts_ = *contacts;
 }
 
+void StepRecorder::SweepContacts(const MotionView& motion, ContactTable* contacts) {
+  adapter_->SweepContacts(motion, contacts);
+  contacts_ = *contacts;
+  motion_.assign(motion.velocity.begin(), motion.velocity.end());
+}
+
 void StepRecorder::Commit(const StepResult& result) {
   adapter_->Commit(result);
   velocity_.assign(result.velocity.begin(), result.velocity.end());
@@ -33,7 +39,7 @@ void StepRecorder::Commit(const StepResult& result) {
 
 RecordedStep StepRecorder::Problem(const SteppingOptions& stepping, double dt) const {
   if (!committed_) throw Error("no step was solved yet, so there is no contact problem to show; solve one step at least");
-  RecordedStep step{bodies_, PoseStep(bodies_, contacts_, stepping, dt), velocity_, {}};
+  RecordedStep step{bodies_, PoseStep(bodies_, motion_, contacts_, stepping, dt), velocity_, {}};
   if (key_.size() < step.problem.contacts.size()) {
     throw Error("the solver committed fewer impulses than it was given contacts; export needs all of them");
   }

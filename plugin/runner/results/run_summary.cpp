@@ -134,11 +134,11 @@ std::string Warnings(const RunSummary& s) {
     text += fmt::format("FIXED: in {} as many iterations were made as asked for, whatever the residual (nat up to {:.2e})\n",
                         Plural(CountOf(s, SolveStatus::kFixed), "step"), s.most.solve.residuals.nat);
   }
-  if (s.steps_beyond_alert > 0) {
+  if (s.steps_beyond_reach > 0) {
     text += fmt::format(
-        "FAST BODIES: in {} a body moved by more than the alert distance or the mean radius, contacts may have been missed: "
-        "choose a smaller time step, or up to a radius a larger alert distance\n",
-        Plural(s.steps_beyond_alert, "step"));
+        "FAST BODIES: in {} a body moved further than contacts were looked for, some may have been missed: choose "
+        "normal_law = \"impact\", or a smaller time step\n",
+        Plural(s.steps_beyond_reach, "step"));
   }
   if (s.uneven_steps > 0) {
     text += fmt::format(
@@ -169,8 +169,7 @@ void RunSummary::Add(const StepReport& step) {
   last = step;
   if (!IsAsAsked(step.solve.status) && not_converged() == 0) first_not_converged = step;
   ++status_count[static_cast<std::size_t>(step.solve.status)];
-  // Beyond a radius a thin wall may lie behind the body when contacts are sought, whatever the alert distance.
-  if (step.max_drift > std::min(step.alert_distance, step.mean_radius)) ++steps_beyond_alert;
+  if (step.beyond_reach > 0) ++steps_beyond_reach;
   if (step.solve.status == SolveStatus::kConverged && step.solve.residuals.nat_max > 0.5) ++uneven_steps;
 }
 

@@ -35,7 +35,7 @@ struct RunSummary {
   StepReport last;
   StepReport first_not_converged;
   StepReport sum, least, most;          ///< of each figure that is a quantity
-  std::int64_t steps_beyond_alert = 0;  ///< max_drift > min(alert_distance, mean_radius)
+  std::int64_t steps_beyond_reach = 0;  ///< in which bodies moved further than contacts were looked for
   std::int64_t uneven_steps = 0;        ///< converged, nat_max > 1/2
 };
 

@@ -61,6 +61,7 @@ class Box2dAdapter final : public PlatformAdapter {
   void ReadBodies(BodyTable* bodies) override;
   /// At the fixtures of the last ReadBodies (or Assign, Insert).
   void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) override;
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override;
   /// Also clears the forces (unless the world's AutoClearForces is off) and wakes the bodies.
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override;

@@ -27,6 +27,7 @@ class ReferenceAdapter final : public PlatformAdapter {
   /// Checks what the world's user may have edited; throws Error that names the body.
   void ReadBodies(BodyTable* bodies) override;
   void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) override;
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override;
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override;
 

@@ -25,6 +25,8 @@ class CallbackAdapter final : public PlatformAdapter {
   AdapterDescription Describe() const override { return description_; }
   void ReadBodies(BodyTable* bodies) override;
   void DetectContacts(const PoseView& poses, double alert, ContactTable* contacts) override;
+  /// By detect_contacts, where the host is older than sweep_contacts or does not have it.
+  void SweepContacts(const MotionView& motion, ContactTable* contacts) override;
   /// Also throws Error, before the host is told anything, when a result is not finite.
   void Commit(const StepResult& result) override;
   BodyTransport* transport() override;
@@ -35,6 +37,7 @@ class CallbackAdapter final : public PlatformAdapter {
   template <class Function>
   void Call(const char* function, Function&& call) const;
   std::string Who(const char* function) const;
+  void CopyFound(const nscdd_contacts& arrays, std::size_t bodies, const std::string& who, ContactTable* contacts) const;
 
   const nscdd_host* host_;
   AdapterDescription description_;

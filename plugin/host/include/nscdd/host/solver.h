@@ -82,6 +82,7 @@ class Solver {
 
   std::shared_ptr<const PluginLibrary> library_;  // first member: unloaded after the handle is gone
   const nscdd_solver_info* info_ = nullptr;
+  std::unique_ptr<nscdd_host> older_host_;  // the host's table as a plugin of an earlier minor knows it
   std::unique_ptr<nscdd_solver, Destroy> handle_;
 };
 
