@@ -8,36 +8,12 @@ import h5py
 import self_stress
 from program import ProgramTest, nscdd
 
-PILE = """
-[scene]
-name = "pile"
-[time]
-dt = 0.005
-steps = 300
-[[materials]]
-name = "grain"
-friction = 0.5
-[[walls]]
-type = "half_plane"
-point = [0, 0]
-[[walls]]
-type = "half_plane"
-point = [0, 0]
-normal = [1, 0]
-[[walls]]
-type = "half_plane"
-point = [5, 0]
-normal = [-1, 0]
-[[depositions]]
-count = 20
-x = [0, 5]
-bottom = 0
-radius = [0.4, 1.0]
-seed = 6
+SOLVER = """
 [solver]
 tolerance = 1e-6
 max_iterations = 5000
 """
+PILE = self_stress.WALLS.replace("steps = 1\n", "steps = 300\n") + self_stress.BODIES + SOLVER
 SIDES = (1, 2)  # ids of the two upright walls
 
 
